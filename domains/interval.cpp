@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "domains/interval.h"
+
+#include <fmt/format.h>
+
+#include "domains/check.h"
+#include "domains/interval_kernel.h"
+#include "domains/rounding.h"
+
+namespace hcsp {
+
+namespace {
+
+// Applies a kernel under upward rounding. The operands enter, and the result leaves, through opaque(), so that no
+// operation can be scheduled outside the guard's lifetime.
+Interval fenced(const Interval& a) { return Interval::raw(opaque(a.lo()), opaque(a.hi())); }
+
+template <class Kernel, class... Operands>
+Interval guarded(Kernel kernel, const Operands&... operands) {
+  RoundUpward guard;
+  return fenced(kernel(fenced(operands)...));
+}
+
+}  // namespace
+
+Interval::Interval(double x) : lo_(x), hi_(x) {
+  require(std::isfinite(x), "Interval: a point must be finite, not {}", x);
+}
+
+Interval::Interval(double lo, double hi) : lo_(lo), hi_(hi) {
+  require(lo <= hi && lo < kInfinity && hi > -kInfinity, "Interval: [{}, {}] is not an interval", lo, hi);
+}
+
+double Interval::width() const {
+  if (is_empty()) return 0.0;
+  RoundUpward guard;
+  return opaque(opaque(hi_) - opaque(lo_));
+}
+
+double Interval::mid() const {
+  HCSP_ASSERT(!is_empty());
+  if (is_entire()) return 0.0;
+  if (lo_ == -kInfinity) return std::min(hi_, 0.0);
+  if (hi_ == kInfinity) return std::max(lo_, 0.0);
+  RoundNearest guard;
+  const double lo = opaque(lo_), hi = opaque(hi_);
+  const double middle = opaque(0.5 * lo + 0.5 * hi);
+  return std::min(std::max(middle, lo_), hi_);
+}
+
+double Interval::mag() const { return is_empty() ? 0.0 : std::max(std::abs(lo_), std::abs(hi_)); }
+
+Interval operator+(const Interval& a, const Interval& b) { return guarded(up::add, a, b); }
+Interval operator-(const Interval& a, const Interval& b) { return guarded(up::sub, a, b); }
+Interval operator*(const Interval& a, const Interval& b) { return guarded(up::mul, a, b); }
+Interval operator/(const Interval& a, const Interval& b) { return guarded(up::div, a, b); }
+Interval sqr(const Interval& a) { return guarded(up::sqr, a); }
+Interval sqrt(const Interval& a) { return guarded(up::sqrt, a); }
+Interval abs(const Interval& a) { return guarded(up::abs, a); }
+Interval min(const Interval& a, const Interval& b) { return guarded(up::min, a, b); }
+Interval max(const Interval& a, const Interval& b) { return guarded(up::max, a, b); }
+
+std::string to_string(const Interval& a) {
+  return a.is_empty() ? "[empty]" : fmt::format("[{}, {}]", a.lo(), a.hi());
+}
+
+}  // namespace hcsp

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: Apache-2.0
+// Closed real intervals in the set-based flavour of IEEE 1788-2015: the sets of reals {x : lo <= x <= hi}, bounds
+// possibly infinite, and the empty set. Every function here is sound in any rounding mode of the caller, which is
+// left as found; the engine's inner loops use the kernels of interval_kernel.h under one guard instead.
+#pragma once
+
+#include <limits>
+#include <string>
+#include <string_view>
+
+#include "domains/lattice.h"
+
+namespace hcsp {
+
+inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+class Interval {
+ public:
+  using Delta = ChangedDelta;
+
+  /// The whole real line.
+  constexpr Interval() : lo_(-kInfinity), hi_(kInfinity) {}
+  /// The point x. Throws std::invalid_argument unless x is finite.
+  Interval(double x);  // NOLINT(google-explicit-constructor): a double is a point
+  /// [lo, hi]. Throws std::invalid_argument on NaN, lo > hi, lo == +oo or hi == -oo.
+  Interval(double lo, double hi);
+
+  static constexpr Interval raw(double lo, double hi) { return Interval(Unchecked{}, lo, hi); }
+  static constexpr Interval entire() { return {}; }
+  static constexpr Interval empty() { return raw(kInfinity, -kInfinity); }
+  /// The tightest interval around the decimal (or hexadecimal, or "oo"-signed infinite bound) number written in text.
+  /// "0.1" gives the two doubles around one tenth. Throws std::invalid_argument when text is not a number.
+  static Interval of_decimal(std::string_view text);
+
+  [[nodiscard]] constexpr double lo() const { return lo_; }
+  [[nodiscard]] constexpr double hi() const { return hi_; }
+  [[nodiscard]] constexpr bool is_empty() const { return !(lo_ <= hi_); }
+  [[nodiscard]] constexpr bool is_point() const { return lo_ == hi_; }
+  [[nodiscard]] constexpr bool is_entire() const { return lo_ == -kInfinity && hi_ == kInfinity; }
+  [[nodiscard]] constexpr bool is_bounded() const { return lo_ > -kInfinity && hi_ < kInfinity; }
+  [[nodiscard]] constexpr bool contains(double x) const { return lo_ <= x && x <= hi_; }
+  /// The width, rounded up; 0 for the empty set.
+  [[nodiscard]] double width() const;
+  /// A finite double inside, the nearest to the midpoint where the interval is bounded. Not for the empty set.
+  [[nodiscard]] double mid() const;
+  /// The largest absolute value; 0 for the empty set.
+  [[nodiscard]] double mag() const;
+
+  /// Equal as sets.
+  friend constexpr bool operator==(const Interval& a, const Interval& b) {
+    return (a.lo_ == b.lo_ && a.hi_ == b.hi_) || (a.is_empty() && b.is_empty());
+  }
+
+ private:
+  struct Unchecked {};
+  constexpr Interval(Unchecked, double lo, double hi) : lo_(lo), hi_(hi) {}
+  double lo_, hi_;
+};
+
+// The lattice of intervals, ordered by inclusion. Comparisons only: no rounding is involved.
+constexpr Interval meet(const Interval& a, const Interval& b) {
+  const double lo = a.lo() > b.lo() ? a.lo() : b.lo();
+  const double hi = a.hi() < b.hi() ? a.hi() : b.hi();
+  return lo <= hi ? Interval::raw(lo, hi) : Interval::empty();
+}
+/// The empty set is [+oo, -oo], neutral for the minimum of the lower and the maximum of the upper bounds.
+constexpr Interval join(const Interval& a, const Interval& b) {
+  return Interval::raw(a.lo() < b.lo() ? a.lo() : b.lo(), a.hi() > b.hi() ? a.hi() : b.hi());
+}
+constexpr bool leq(const Interval& a, const Interval& b) {
+  return a.is_empty() || (b.lo() <= a.lo() && a.hi() <= b.hi());
+}
+inline Interval top(const Interval&) { return Interval::entire(); }
+inline Interval bottom(const Interval&) { return Interval::empty(); }
+inline Interval::Delta contract(Interval& a, const Interval& b) {
+  const Interval met = meet(a, b);
+  const bool changed = !(met == a);
+  a = met;
+  return {changed};
+}
+inline Interval::Delta everything(const Interval&) { return {true}; }
+/// How much a domain leaves open, for reports: its width.
+inline double measure(const Interval& a) { return a.width(); }
+
+// Forward operations (IEEE 1788-2015, 9.1): enclosures of the image, tightest for every operation below.
+// Arguments outside an operation's domain of definition are ignored: sqrt([-1, 4]) = [0, 2].
+inline Interval operator-(const Interval& a) { return Interval::raw(-a.hi(), -a.lo()); }
+Interval operator+(const Interval& a, const Interval& b);
+Interval operator-(const Interval& a, const Interval& b);
+Interval operator*(const Interval& a, const Interval& b);
+Interval operator/(const Interval& a, const Interval& b);
+inline Interval& operator+=(Interval& a, const Interval& b) { return a = a + b; }
+inline Interval& operator-=(Interval& a, const Interval& b) { return a = a - b; }
+inline Interval& operator*=(Interval& a, const Interval& b) { return a = a * b; }
+inline Interval& operator/=(Interval& a, const Interval& b) { return a = a / b; }
+Interval sqr(const Interval& a);
+Interval sqrt(const Interval& a);
+Interval abs(const Interval& a);
+Interval min(const Interval& a, const Interval& b);
+Interval max(const Interval& a, const Interval& b);
+Interval sin(const Interval& a);
+Interval cos(const Interval& a);
+/// The angle of the vector (x, y), in [-pi, pi], in the argument order of IEEE 1788; undefined at (0, 0).
+Interval atan2(const Interval& y, const Interval& x);
+/// The tightest enclosure of pi.
+Interval pi();
+
+/// "[lo, hi]" in shortest round-trip form, "[empty]" for the empty set.
+std::string to_string(const Interval& a);
+
+static_assert(Lattice<Interval>);
+
+}  // namespace hcsp

@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: Apache-2.0
+// Interval arithmetic for inner loops. PRECONDITION of everything in namespace up: the thread rounds upward
+// (rounding.h: RoundUpward is alive). A lower bound is then the negated upper bound of the negated value, so that
+// one rounding mode serves both and none is switched: -((-a) - b) rounds a + b down. This relies on -frounding-math,
+// which the target hcsp_domains hands to whoever includes this.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "domains/interval.h"
+
+namespace hcsp::up {
+
+inline double add_down(double a, double b) { return -((-a) - b); }
+inline double sub_down(double a, double b) { return -(b - a); }
+inline double mul_down(double a, double b) { return -((-a) * b); }
+inline double div_down(double a, double b) { return -((-a) / b); }
+
+/// The greatest double below x: in upward rounding, stepping up from -x by less than any gap.
+inline double next_down(double x) { return -((-x) + std::numeric_limits<double>::denorm_min()); }
+inline double next_up(double x) { return x + std::numeric_limits<double>::denorm_min(); }
+
+/// sqrt rounded down, for x >= 0: the upward root, unless its square (exact exactly when both roundings agree)
+/// tells that it was rounded.
+inline double sqrt_down(double x) {
+  const double root = std::sqrt(x);
+  const bool exact = root * root == x && mul_down(root, root) == x;
+  return exact || x == kInfinity ? root : next_down(root);
+}
+
+/// 0 * oo = 0 for bounds: the bound oo is not a value that is taken (IEEE 1788-2015, 9.1; level 2 of the product).
+inline double no_nan(double product) { return product == product ? product : 0.0; }
+
+inline Interval add(const Interval& a, const Interval& b) {
+  if (a.is_empty() || b.is_empty()) return Interval::empty();
+  return Interval::raw(add_down(a.lo(), b.lo()), a.hi() + b.hi());
+}
+
+inline Interval sub(const Interval& a, const Interval& b) {
+  if (a.is_empty() || b.is_empty()) return Interval::empty();
+  return Interval::raw(sub_down(a.lo(), b.hi()), a.hi() - b.lo());
+}
+
+inline Interval mul(const Interval& a, const Interval& b) {
+  if (a.is_empty() || b.is_empty()) return Interval::empty();
+  const double hi = std::max(std::max(no_nan(a.lo() * b.lo()), no_nan(a.lo() * b.hi())),
+                             std::max(no_nan(a.hi() * b.lo()), no_nan(a.hi() * b.hi())));
+  const double minus_lo = std::max(std::max(no_nan(-a.lo() * b.lo()), no_nan(-a.lo() * b.hi())),
+                                   std::max(no_nan(-a.hi() * b.lo()), no_nan(-a.hi() * b.hi())));
+  return Interval::raw(-minus_lo, hi);
+}
+
+/// a / b for b without zero inside its bounds' signs: b > 0 or b < 0, a bound of b possibly 0 or infinite.
+inline Interval div_by_signed(const Interval& a, const Interval& b) {
+  if (b.hi() <= 0) return div_by_signed(-a, -b);
+  // b.lo >= 0: a quotient's extreme divisor depends on the sign of the numerator's bound alone. 0 / 0 is no value.
+  const double near = std::abs(b.lo());  // a zero bound is +0, whatever its sign was
+  const double lo_by = a.lo() >= 0 ? b.hi() : near;
+  const double hi_by = a.hi() >= 0 ? near : b.hi();
+  const double lo = a.lo() == 0 ? 0.0 : (std::isinf(a.lo()) ? a.lo() : div_down(a.lo(), lo_by));
+  const double hi = a.hi() == 0 ? 0.0 : (std::isinf(a.hi()) ? a.hi() : a.hi() / hi_by);
+  return Interval::raw(lo, hi);
+}
+
+inline Interval div(const Interval& a, const Interval& b) {
+  if (a.is_empty() || b.is_empty() || (b.lo() == 0 && b.hi() == 0)) return Interval::empty();
+  if (a.lo() == 0 && a.hi() == 0) return a;
+  if (b.lo() >= 0 || b.hi() <= 0) return div_by_signed(a, b);
+  return Interval::entire();
+}
+
+inline Interval sqr(const Interval& a) {
+  if (a.is_empty()) return a;
+  const double small = a.lo() > 0 ? a.lo() : (a.hi() < 0 ? a.hi() : 0.0);
+  const double large = std::max(-a.lo(), a.hi());
+  return Interval::raw(mul_down(small, small), large * large);
+}
+
+inline Interval sqrt(const Interval& a) {
+  if (a.is_empty() || a.hi() < 0) return Interval::empty();
+  return Interval::raw(a.lo() <= 0 ? 0.0 : sqrt_down(a.lo()), std::sqrt(a.hi()));
+}
+
+inline Interval abs(const Interval& a) {
+  if (a.is_empty()) return a;
+  const double small = a.lo() > 0 ? a.lo() : (a.hi() < 0 ? -a.hi() : 0.0);
+  return Interval::raw(small, std::max(-a.lo(), a.hi()));
+}
+
+inline Interval min(const Interval& a, const Interval& b) {
+  if (a.is_empty() || b.is_empty()) return Interval::empty();
+  return Interval::raw(std::min(a.lo(), b.lo()), std::min(a.hi(), b.hi()));
+}
+
+inline Interval max(const Interval& a, const Interval& b) {
+  if (a.is_empty() || b.is_empty()) return Interval::empty();
+  return Interval::raw(std::max(a.lo(), b.lo()), std::max(a.hi(), b.hi()));
+}
+
+// Reverse operations (IEEE 1788-2015, 9.1 and 10.5.4): the part of x for which the operation can give a value in c.
+
+/// {x in X : there is b in B with x * b in c}: exact up to rounding, the two parts of a division by an interval
+/// around zero are both met with X before they are joined.
+inline Interval mul_rev(const Interval& b, const Interval& c, const Interval& x) {
+  if (b.is_empty() || c.is_empty() || x.is_empty()) return Interval::empty();
+  if (b.contains(0) && c.contains(0)) return x;
+  if (b.lo() >= 0 || b.hi() <= 0) return meet(up::div(c, b), x);
+  const Interval negative = meet(div_by_signed(c, Interval::raw(b.lo(), 0.0)), x);
+  const Interval positive = meet(div_by_signed(c, Interval::raw(0.0, b.hi())), x);
+  return join(negative, positive);
+}
+
+/// {x in X : |x| in c}.
+inline Interval abs_rev(const Interval& c, const Interval& x) {
+  const Interval right = meet(c, Interval::raw(0.0, kInfinity));
+  if (right.is_empty()) return right;
+  return join(meet(right, x), meet(-right, x));
+}
+
+/// {x in X : x^2 in c}.
+inline Interval sqr_rev(const Interval& c, const Interval& x) { return abs_rev(up::sqrt(c), x); }
+
+/// {x in X : sqrt(x) in c}.
+inline Interval sqrt_rev(const Interval& c, const Interval& x) {
+  const Interval root = meet(c, Interval::raw(0.0, kInfinity));
+  return root.is_empty() ? root : meet(up::sqr(root), x);
+}
+
+/// {x in X : there is b in B with min(x, b) in c}; max is its mirror image.
+inline Interval min_rev(const Interval& b, const Interval& c, const Interval& x) {
+  if (b.is_empty() || c.is_empty() || x.is_empty()) return Interval::empty();
+  if (b.hi() < c.lo()) return Interval::empty();
+  // Where b alone can give a value in c, x is only bounded below.
+  const double hi = b.lo() <= c.hi() ? kInfinity : c.hi();
+  return meet(x, Interval::raw(c.lo(), hi));
+}
+
+inline Interval max_rev(const Interval& b, const Interval& c, const Interval& x) {
+  return -min_rev(-b, -c, -x);
+}
+
+}  // namespace hcsp::up
+
+namespace hcsp {
+
+// Elementary functions and their reverses: sound in any rounding mode (they set their own), so they need no kernel
+// form; the reverse of the sine is the part of x whose sine can lie in c.
+Interval sin_rev(const Interval& c, const Interval& x);
+Interval cos_rev(const Interval& c, const Interval& x);
+/// Contracts y and x to the part for which atan2(y, x) can lie in angle; returns false when none is left.
+bool atan2_rev(const Interval& angle, Interval& y, Interval& x);
+
+}  // namespace hcsp

@@ -1,0 +1,473 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "domains/set_interval.h"
+
+#include <algorithm>
+
+#include "domains/check.h"
+#include "domains/set_descent.h"
+
+namespace hcsp {
+
+namespace {
+
+constexpr std::uint64_t kAll = ~std::uint64_t{0};
+
+Planes uniform_planes(const Planes& planes, int bit) {
+  return {((planes.lower >> bit) & 1U) != 0 ? kAll : 0, ((planes.upper >> bit) & 1U) != 0 ? kAll : 0};
+}
+
+CellState state_of(const Planes& planes, int bit) {
+  const bool lower = ((planes.lower >> bit) & 1U) != 0;
+  const bool upper = ((planes.upper >> bit) & 1U) != 0;
+  return lower ? (upper ? CellState::inside : CellState::contradiction) : (upper ? CellState::unknown : CellState::outside);
+}
+
+// The part of a block's cells at the origin of its node, as a mask of children: part children along an axis.
+std::uint64_t mask_at_origin(std::size_t dim, int axis_bits, std::int64_t part) {
+  std::uint64_t mask = part == 64 ? kAll : (std::uint64_t{1} << part) - 1;
+  for (std::size_t axis = 1; axis < dim; ++axis) {
+    const std::uint64_t row = mask;
+    const int stride = axis_bits * static_cast<int>(axis);
+    for (std::int64_t i = 1; i < part; ++i) mask |= row << (i << stride);
+  }
+  return mask;
+}
+
+using MaskTable = std::array<std::array<std::uint64_t, 7>, 4>;
+
+MaskTable make_masks() {
+  MaskTable table{};
+  for (std::size_t dim = 1; dim <= 3; ++dim) {
+    const int bits = 6 / static_cast<int>(dim);
+    for (int log = 0; log <= bits; ++log) table[dim][static_cast<std::size_t>(log)] = mask_at_origin(dim, bits, std::int64_t{1} << log);
+  }
+  return table;
+}
+
+// The cells that the closed frame touches: half-open cells, so a face at line(i) touches cell i.
+Region touched_cells(const Grid& grid, const Box& frame) {
+  require(static_cast<std::size_t>(frame.dim()) == grid.dim(), "SetInterval: a frame of dimension {} in R^{}", frame.dim(),
+          grid.dim());
+  Region region;
+  const double reach = grid.line(Grid::kReach);
+  for (std::size_t axis = 0; axis < grid.dim(); ++axis) {
+    const Interval& side = frame[static_cast<Eigen::Index>(axis)];
+    require(side.lo() < side.hi(), "SetInterval: the frame {} has no volume", to_string(frame));
+    require(-reach < side.lo() && side.hi() < reach, "SetInterval: the frame {} is beyond the addressable cells of {}",
+            to_string(frame), grid.precision());
+    region.lo[axis] = grid.cell_of(side.lo());
+    region.hi[axis] = grid.cell_of(side.hi()) + 1;
+  }
+  return region;
+}
+
+// Excludes all that is outside a region.
+struct OutsideOf {
+  const Region& region;
+  std::size_t dim;
+  Decision decide(const CellIndex& lo, std::int64_t edge) const {
+    bool within = true;
+    for (std::size_t axis = 0; axis < dim; ++axis) {
+      if (lo[axis] >= region.hi[axis] || lo[axis] + edge <= region.lo[axis]) return Decision::all;
+      within = within && lo[axis] >= region.lo[axis] && lo[axis] + edge <= region.hi[axis];
+    }
+    return within ? Decision::none : Decision::split;
+  }
+};
+
+}  // namespace
+
+void Region::join(const Region& other) {
+  beyond = beyond || other.beyond;
+  if (!other.has_cells()) return;
+  if (!has_cells()) {
+    lo = other.lo;
+    hi = other.hi;
+    return;
+  }
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    lo[axis] = std::min(lo[axis], other.lo[axis]);
+    hi[axis] = std::max(hi[axis], other.hi[axis]);
+  }
+}
+
+bool Region::meets(const CellIndex& block_lo, std::int64_t edge, std::size_t dim) const {
+  for (std::size_t axis = 0; axis < dim; ++axis) {
+    if (block_lo[axis] >= hi[axis] || block_lo[axis] + edge <= lo[axis]) return false;
+  }
+  return true;
+}
+
+Region Region::block(const CellIndex& lo, std::int64_t edge, std::size_t dim) {
+  Region region;
+  region.lo = lo;
+  for (std::size_t axis = 0; axis < dim; ++axis) region.hi[axis] = lo[axis] + edge;
+  return region;
+}
+
+SetInterval::SetInterval(std::size_t dim, double precision, const std::optional<Box>& frame)
+    : grid_(dim, precision), background_{0, kAll} {
+  root_ = new_node(background_);
+  if (!frame) return;
+  const Region cells = touched_cells(grid_, *frame);
+  Region margin = cells;  // a rim of outside cells, so that contractors see where the frame ends
+  for (std::size_t axis = 0; axis < dim; ++axis) {
+    --margin.lo[axis];
+    ++margin.hi[axis];
+  }
+  cover(margin);
+  OutsideOf zone{cells, dim};
+  exclude(reach(), zone);
+  exclude_background();
+}
+
+CellState SetInterval::background() const { return state_of(background_, 0); }
+
+CellState SetInterval::at(const double* point) const {
+  CellIndex cell{};
+  for (std::size_t axis = 0; axis < dim(); ++axis) cell[axis] = grid_.cell_of(point[axis]);
+  return at_cell(cell);
+}
+
+CellState SetInterval::at_cell(const CellIndex& cell) const {
+  if (!reach().meets(cell, 1, dim())) return background();
+  const CellIndex origin = root_origin();
+  std::uint32_t node = root_;
+  for (int shift = axis_bits() * (levels_ - 1);; shift -= axis_bits()) {
+    int bit = 0;
+    for (std::size_t axis = 0; axis < dim(); ++axis) {
+      const std::int64_t digit = ((cell[axis] - origin[axis]) >> shift) & (side() - 1);
+      bit |= static_cast<int>(digit) << (axis_bits() * static_cast<int>(axis));
+    }
+    const Node& at = nodes_[node];
+    if (((at.mixed >> bit) & 1U) == 0) return state_of({at.lower, at.upper}, bit);
+    node = children_[at.children][static_cast<std::size_t>(bit)];
+  }
+}
+
+Region SetInterval::exclude_background() {
+  Region delta;
+  delta.beyond = background_.upper != 0;
+  if (background_.lower != 0) empty_ = true;
+  background_.upper = 0;
+  return delta;
+}
+
+Region SetInterval::everywhere() {
+  Region region;
+  region.lo.fill(-Grid::kReach);
+  region.hi.fill(Grid::kReach);
+  region.beyond = true;
+  return region;
+}
+
+// ---- The tree ----
+
+// A tree of L levels covers side^L cells along an axis from -o, where o has the digit side / 2 at each of its L places
+// in base `side`. So a taller tree holds the shorter one as one of its blocks, and 0 stays well inside.
+CellIndex SetInterval::root_origin() const {
+  const std::int64_t below = (side() / 2) * ((root_edge() - 1) / (side() - 1));
+  CellIndex origin{};
+  for (std::size_t axis = 0; axis < dim(); ++axis) origin[axis] = -below;
+  return origin;
+}
+
+Region SetInterval::reach() const { return Region::block(root_origin(), root_edge(), dim()); }
+
+std::uint64_t SetInterval::part_mask(std::int64_t part, int bit) const {
+  static const MaskTable kMasks = make_masks();
+  return kMasks[dim()][static_cast<std::size_t>(__builtin_ctzll(static_cast<std::uint64_t>(part)))] << bit;
+}
+
+CellIndex SetInterval::child_place(const CellIndex& origin, std::int64_t child_edge, int bit) const {
+  CellIndex place = origin;
+  for (std::size_t axis = 0; axis < dim(); ++axis) {
+    place[axis] += ((bit >> (axis_bits() * static_cast<int>(axis))) & (side() - 1)) * child_edge;
+  }
+  return place;
+}
+
+// How far the bit of a part's corner is from its first child's bit: corner is one bit an axis, in units of the part.
+int SetInterval::part_bit(std::int64_t part, int corner) const {
+  int bit = 0;
+  for (std::size_t axis = 0; axis < dim(); ++axis) {
+    if (((corner >> axis) & 1) != 0) bit += static_cast<int>(part << (axis_bits() * static_cast<int>(axis)));
+  }
+  return bit;
+}
+
+SetInterval::Block SetInterval::sum_up(Block block) const {
+  if (block.node == kNoNode) return block;
+  const Node& node = nodes_[block.node];
+  block.any_upper = (node.upper & block.mask) != 0;
+  block.all_lower = (node.lower & block.mask) == block.mask;
+  block.all_upper = (node.upper & block.mask) == block.mask && (node.mixed & block.mask) == 0;
+  if (block.edge == block.child_edge && block.child_edge > 1) {  // one child: go down to it
+    if ((node.mixed & block.mask) != 0) {
+      block.node = children_[node.children][static_cast<std::size_t>(__builtin_ctzll(block.mask))];
+      block.mask = kAll;
+      block.child_edge /= side();
+    } else {
+      block.node = kNoNode;
+    }
+  }
+  return block;
+}
+
+SetInterval::Block SetInterval::root() const {
+  Block block;
+  block.lo = root_origin();
+  block.edge = root_edge();
+  block.node = root_;
+  block.mask = kAll;
+  block.child_edge = root_edge() / side();
+  return sum_up(block);
+}
+
+std::array<SetInterval::Block, 8> SetInterval::parts(const Block& block) const {
+  std::array<Block, 8> parts{};
+  const std::int64_t edge = block.edge / 2;
+  for (int corner = 0; corner < (1 << dim()); ++corner) {
+    Block part = block;
+    part.edge = edge;
+    for (std::size_t axis = 0; axis < dim(); ++axis) part.lo[axis] += ((corner >> axis) & 1) * edge;
+    if (block.node != kNoNode) {
+      const std::int64_t part_children = edge / block.child_edge;
+      part.mask = part_mask(part_children, __builtin_ctzll(block.mask) + part_bit(part_children, corner));
+    }
+    parts[static_cast<std::size_t>(corner)] = sum_up(part);
+  }
+  return parts;
+}
+
+std::uint32_t SetInterval::new_node(Planes uniform) {
+  std::uint32_t id = 0;
+  if (free_nodes_.empty()) {
+    id = static_cast<std::uint32_t>(nodes_.size());
+    nodes_.emplace_back();
+  } else {
+    id = free_nodes_.back();
+    free_nodes_.pop_back();
+  }
+  Node& node = nodes_[id];
+  node.lower = uniform.lower;
+  node.upper = uniform.upper;
+  node.mixed = 0;
+  return id;
+}
+
+// The node of a child; a uniform child gets one.
+std::uint32_t SetInterval::child(std::uint32_t node, int bit) {
+  const std::uint64_t flag = std::uint64_t{1} << bit;
+  if (nodes_[node].children == kNoNode) {
+    nodes_[node].children = static_cast<std::uint32_t>(children_.size());
+    children_.emplace_back();
+  }
+  if ((nodes_[node].mixed & flag) == 0) {
+    const std::uint32_t made = new_node(uniform_planes({nodes_[node].lower, nodes_[node].upper}, bit));
+    nodes_[node].mixed |= flag;
+    children_[nodes_[node].children][static_cast<std::size_t>(bit)] = made;
+  }
+  return children_[nodes_[node].children][static_cast<std::size_t>(bit)];
+}
+
+// A freed node keeps its array of children for its next use.
+void SetInterval::free_node(std::uint32_t node) {
+  for (std::uint64_t rest = nodes_[node].mixed; rest != 0; rest &= rest - 1) {
+    free_node(children_[nodes_[node].children][static_cast<std::size_t>(__builtin_ctzll(rest))]);
+  }
+  nodes_[node].mixed = 0;
+  free_nodes_.push_back(node);
+}
+
+// Sums a child that has changed up into its parent, and drops its node where it has become uniform.
+void SetInterval::refresh(std::uint32_t node, int bit) {
+  const std::uint64_t flag = std::uint64_t{1} << bit;
+  const std::uint32_t id = children_[nodes_[node].children][static_cast<std::size_t>(bit)];
+  const Node& child = nodes_[id];
+  const bool uniform = child.mixed == 0 && (child.lower == 0 || child.lower == kAll) && (child.upper == 0 || child.upper == kAll);
+  Node& parent = nodes_[node];
+  parent.lower = child.lower == kAll ? parent.lower | flag : parent.lower & ~flag;
+  parent.upper = child.upper != 0 ? parent.upper | flag : parent.upper & ~flag;
+  if (uniform) {
+    parent.mixed &= ~flag;
+    free_node(id);
+  }
+}
+
+void SetInterval::grow_to(int levels) {
+  while (levels_ < levels) {
+    const std::uint32_t old_root = root_;
+    const std::uint32_t new_root = new_node(background_);
+    const int middle = part_bit(side() / 2, (1 << dim()) - 1);
+    const std::uint32_t placeholder = child(new_root, middle);
+    children_[nodes_[new_root].children][static_cast<std::size_t>(middle)] = old_root;
+    free_node(placeholder);
+    root_ = new_root;
+    ++levels_;
+    refresh(root_, middle);
+  }
+}
+
+void SetInterval::cover(const Region& cells) {
+  const auto covered = [&] {
+    const Region mine = reach();
+    for (std::size_t axis = 0; axis < dim(); ++axis) {
+      const std::int64_t lo = std::max(cells.lo[axis], -Grid::kReach), hi = std::min(cells.hi[axis], Grid::kReach);
+      if (lo < mine.lo[axis] || hi > mine.hi[axis]) return false;
+    }
+    return true;
+  };
+  while (!covered()) grow_to(levels_ + 1);
+}
+
+bool SetInterval::has_cell(std::uint32_t node, std::uint64_t mask, CellState state) const {
+  const Node& at = nodes_[node];
+  const std::uint64_t uniform = mask & ~at.mixed;
+  const std::uint64_t found = state == CellState::outside ? ~at.upper : at.lower;
+  if ((found & uniform) != 0) return true;
+  for (std::uint64_t rest = at.mixed & mask; rest != 0; rest &= rest - 1) {
+    if (has_cell(children_[at.children][static_cast<std::size_t>(__builtin_ctzll(rest))], kAll, state)) return true;
+  }
+  return false;
+}
+
+// ---- Cell-by-cell operations ----
+
+struct SetInterval::View {
+  const SetInterval& set;
+  std::uint32_t node;  // kNoNode: uniform
+  Planes uniform;
+
+  [[nodiscard]] Planes planes() const {
+    return node == kNoNode ? uniform : Planes{set.nodes_[node].lower, set.nodes_[node].upper};
+  }
+  [[nodiscard]] std::uint64_t mixed() const { return node == kNoNode ? 0 : set.nodes_[node].mixed; }
+  [[nodiscard]] View child(int bit) const {
+    if (((mixed() >> bit) & 1U) == 0) return {set, kNoNode, uniform_planes(planes(), bit)};
+    return {set, set.children_[set.nodes_[node].children][static_cast<std::size_t>(bit)], {}};
+  }
+};
+
+void SetInterval::combine_node(std::uint32_t node, const View& source, std::int64_t child_edge, const CellIndex& origin,
+                               WordOperation op, const Region& where, Region& delta) {
+  if (source.node == kNoNode) {
+    // A uniform source that leaves each of the four states alone leaves everything alone.
+    constexpr Planes kStates{0b1100, 0b1010};
+    const Planes after = op(kStates, source.uniform);
+    if ((after.lower & 0xf) == kStates.lower && (after.upper & 0xf) == kStates.upper) return;
+  }
+  const Planes before{nodes_[node].lower, nodes_[node].upper};
+  const std::uint64_t mixed = nodes_[node].mixed | source.mixed();
+  const Planes after = op(before, source.planes());
+  const std::uint64_t changed = ((before.lower ^ after.lower) | (before.upper ^ after.upper)) & ~mixed;
+  nodes_[node].lower = (before.lower & mixed) | (after.lower & ~mixed);
+  nodes_[node].upper = (before.upper & mixed) | (after.upper & ~mixed);
+  if ((after.lower & ~after.upper & ~mixed) != 0) empty_ = true;
+  for (std::uint64_t rest = changed; rest != 0; rest &= rest - 1) {
+    delta.join(Region::block(child_place(origin, child_edge, __builtin_ctzll(rest)), child_edge, dim()));
+  }
+  for (std::uint64_t rest = mixed; rest != 0; rest &= rest - 1) {
+    const int bit = __builtin_ctzll(rest);
+    const CellIndex lo = child_place(origin, child_edge, bit);
+    if (!where.meets(lo, child_edge, dim())) continue;
+    combine_node(child(node, bit), source.child(bit), child_edge / side(), lo, op, where, delta);
+    refresh(node, bit);
+  }
+}
+
+Region combine(SetInterval& target, const SetInterval& source, SetInterval::WordOperation op, const Region& where) {
+  require(target.grid_ == source.grid_, "SetInterval: grids differ (precisions {} and {})", target.precision(),
+          source.precision());
+  HCSP_ASSERT(!target.empty_ && !source.empty_);
+  if (source.levels_ < target.levels_) {
+    SetInterval grown = source;
+    grown.grow_to(target.levels_);
+    return combine(target, grown, op, where);
+  }
+  target.grow_to(source.levels_);
+  Region delta;
+  target.combine_node(target.root_, {source, source.root_, {}}, target.root_edge() / target.side(), target.root_origin(),
+                      op, where, delta);
+  const Planes background = op(target.background_, source.background_);
+  delta.beyond = !(background == target.background_);
+  target.background_ = background;
+  if ((background.lower & ~background.upper) != 0) target.empty_ = true;
+  return delta;
+}
+
+namespace {
+
+SetInterval combined(const SetInterval& a, const SetInterval& b, SetInterval::WordOperation op) {
+  SetInterval result = a;
+  combine(result, b, op, SetInterval::everywhere());
+  return result;
+}
+
+SetInterval strict(const SetInterval& a, const SetInterval& b, SetInterval::WordOperation op) {
+  if (a.is_empty() || b.is_empty()) return bottom(a);
+  return combined(a, b, op);
+}
+
+Planes meet_words(Planes a, Planes b) { return {a.lower | b.lower, a.upper & b.upper}; }
+Planes join_words(Planes a, Planes b) { return {a.lower & b.lower, a.upper | b.upper}; }
+
+}  // namespace
+
+Region contract(SetInterval& a, const SetInterval& b) {
+  if (a.is_empty()) return {};
+  if (b.is_empty()) {
+    a = bottom(a);
+    return everything(a);
+  }
+  return combine(a, b, meet_words, SetInterval::everywhere());
+}
+
+SetInterval meet(const SetInterval& a, const SetInterval& b) { return strict(a, b, meet_words); }
+
+SetInterval join(const SetInterval& a, const SetInterval& b) {
+  if (a.is_empty()) return b;
+  if (b.is_empty()) return a;
+  return combined(a, b, join_words);
+}
+
+bool leq(const SetInterval& a, const SetInterval& b) {
+  if (a.is_empty()) return true;
+  if (b.is_empty()) return false;
+  SetInterval met = a;
+  return contract(met, b).is_none();
+}
+
+bool operator==(const SetInterval& a, const SetInterval& b) { return a.grid() == b.grid() && leq(a, b) && leq(b, a); }
+
+SetInterval top(const SetInterval& a) { return {a.dim(), a.precision()}; }
+
+SetInterval bottom(const SetInterval& a) {
+  SetInterval empty(a.dim(), a.precision());
+  empty.empty_ = true;
+  return empty;
+}
+
+SetInterval set_union(const SetInterval& a, const SetInterval& b) {
+  return strict(a, b, [](Planes x, Planes y) { return Planes{x.lower | y.lower, x.upper | y.upper}; });
+}
+
+SetInterval set_intersection(const SetInterval& a, const SetInterval& b) {
+  return strict(a, b, [](Planes x, Planes y) { return Planes{x.lower & y.lower, x.upper & y.upper}; });
+}
+
+SetInterval set_difference(const SetInterval& a, const SetInterval& b) {
+  return strict(a, b, [](Planes x, Planes y) { return Planes{x.lower & ~y.upper, x.upper & ~y.lower}; });
+}
+
+SetInterval set_symmetric_difference(const SetInterval& a, const SetInterval& b) {
+  return strict(a, b, [](Planes x, Planes y) {
+    return Planes{(x.lower & ~y.upper) | (y.lower & ~x.upper), (x.upper | y.upper) & ~(x.lower & y.lower)};
+  });
+}
+
+SetInterval set_complement(const SetInterval& a) {
+  return strict(a, a, [](Planes x, Planes) { return Planes{~x.upper, ~x.lower}; });
+}
+
+}  // namespace hcsp

@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "solver/contractors/derivative.h"
+
+#include <algorithm>
+
+#include "domains/interval_kernel.h"
+#include "domains/rounding.h"
+
+namespace hcsp {
+
+namespace {
+
+constexpr std::size_t kLanes = 64;
+
+// An upper bound of x over a slice of length dt, where x starts at most at x0, ends at most at x1, and its slope stays
+// in v: the maximum over time of the lesser of the two lines that the ends allow. Where the lines cross at a peak, its
+// height is p x0 + q x1 + r, a weighted mean of the ends raised by r.
+double slice_upper(double x0, double x1, const Interval& v, const Interval& dt) {
+  const double from_start = std::max(x0, up::add(Interval::raw(x0, x0), up::mul(v, dt)).hi());
+  const double from_end = std::max(x1, up::sub(Interval::raw(x1, x1), up::mul(v, dt)).hi());
+  const double corner = std::min(from_start, from_end);
+  const bool peak = v.lo() < 0 && v.hi() > 0 && v.is_bounded() && std::isfinite(x0) && std::isfinite(x1);
+  if (!peak) return corner;
+  const Interval fall(-v.lo()), rise(v.hi());
+  const Interval slopes = up::add(rise, fall);
+  const Interval p = up::div(fall, slopes), q = up::div(rise, slopes);
+  const Interval r = up::mul(up::mul(p, rise), dt);
+  const double height = up::add(up::add(up::mul(p, Interval::raw(x0, x0)), up::mul(q, Interval::raw(x1, x1))), r).hi();
+  return std::min(corner, height);
+}
+
+Interval slice_hull(const Interval& x0, const Interval& x1, const Interval& v, const Interval& dt) {
+  return Interval::raw(-slice_upper(-x0.lo(), -x1.lo(), -v, dt), slice_upper(x0.hi(), x1.hi(), v, dt));
+}
+
+class DerivativeContractor final : public Contractor {
+ public:
+  DerivativeContractor(const std::string& name, VariableId x, std::size_t dim, Program program, Inputs inputs,
+                       std::shared_ptr<const TimeLine> line)
+      : Contractor(name, name, Cost::linear, with(inputs.variables(), x), {x}), x_(x), line_(std::move(line)),
+        program_(std::move(program)), inputs_(std::move(inputs)), evaluation_(program_, kLanes),
+        slopes_(dim, std::vector<Interval>(line_->slices())), steps_(slopes_) {}
+
+  void contract(Access& access) override {
+    RoundUpward guard;
+    inputs_.open(access);
+    if (!update_slopes(access)) return;
+    Tube& x = access.edit<Tube>(x_);
+    ItemSet before = access.delta<Tube>(x_);
+    before.join(new_slopes_);
+    ItemSet changes;
+    std::optional<std::array<double, 2>> when;
+    for (std::size_t c = 0; c < x.dim() && !x.is_empty(); ++c) {
+      ItemSet moved = before;
+      const auto meet_at = [&](std::size_t item, const Interval& bound) {
+        if (x.is_empty() || !x.meet_at(c, item, bound)) return;
+        moved.insert(item);
+        changes.insert(item);
+        if (x.is_empty()) when = inputs_.when(item);
+      };
+      sweep(x, c, moved, meet_at);
+    }
+    access.report<Tube>(x_, changes, when);
+  }
+
+ private:
+  static std::vector<VariableId> with(std::vector<VariableId> variables, VariableId x) {
+    if (std::find(variables.begin(), variables.end(), x) == variables.end()) variables.push_back(x);
+    return variables;
+  }
+
+  // Re-evaluates f over the slices where an input changed. False when f has no value somewhere.
+  bool update_slopes(Access& access) {
+    new_slopes_ = {};
+    std::vector<std::size_t> slices;
+    bool alive = true;
+    const auto flush = [&] {
+      if (alive && !slices.empty()) alive = evaluate(access, slices);
+      slices.clear();
+    };
+    // An untimed f has one item, which stands for every slice.
+    const ItemSet changed = inputs_.changed(access);
+    for (std::size_t k = 0; k < line_->slices(); ++k) {
+      if (!changed.contains(inputs_.timed() ? 2 * k + 1 : 0)) continue;
+      slices.push_back(k);
+      if (slices.size() == kLanes) flush();
+    }
+    flush();
+    return alive;
+  }
+
+  bool evaluate(Access& access, const std::vector<std::size_t>& slices) {
+    for (std::size_t lane = 0; lane < slices.size(); ++lane) {
+      inputs_.load(evaluation_, inputs_.timed() ? 2 * slices[lane] + 1 : 0, lane);
+    }
+    evaluation_.forward(slices.size());
+    for (std::size_t lane = 0; lane < slices.size(); ++lane) {
+      const std::size_t k = slices[lane];
+      const Interval dt = duration(k);
+      for (std::size_t c = 0; c < slopes_.size(); ++c) {
+        slopes_[c][k] = evaluation_.get(program_.root(c), lane);
+        if (slopes_[c][k].is_empty()) {
+          access.fail(x_, inputs_.when(2 * k + 1));
+          return false;
+        }
+        steps_[c][k] = up::mul(slopes_[c][k], dt);
+      }
+      new_slopes_.insert(2 * k + 1);
+    }
+    return true;
+  }
+
+  [[nodiscard]] Interval duration(std::size_t k) const {
+    const double t0 = line_->instants()[k], t1 = line_->instants()[k + 1];
+    return Interval::raw(up::sub_down(t1, t0), t1 - t0);
+  }
+
+  // One sweep forward, one back, then the slices whose ends moved. `moved` grows as the sweep goes.
+  template <class MeetAt>
+  void sweep(const Tube& x, std::size_t c, ItemSet& moved, const MeetAt& meet_at) {
+    const std::size_t slices = line_->slices();
+    for (std::size_t k = 0; k < slices; ++k) {
+      const std::size_t before = 2 * k, slice = before + 1, after = before + 2;
+      if (moved.contains(slice)) {
+        meet_at(before, x.at(c, slice));
+        meet_at(after, x.at(c, slice));
+      }
+      if (moved.contains(before) || moved.contains(slice)) meet_at(after, up::add(x.at(c, before), steps_[c][k]));
+    }
+    for (std::size_t k = slices; k-- > 0;) {
+      const std::size_t before = 2 * k, slice = before + 1, after = before + 2;
+      if (moved.contains(after) || moved.contains(slice)) meet_at(before, up::sub(x.at(c, after), steps_[c][k]));
+    }
+    for (std::size_t k = 0; k < slices && !x.is_empty(); ++k) {
+      const std::size_t before = 2 * k, slice = before + 1, after = before + 2;
+      if (!moved.contains(before) && !moved.contains(slice) && !moved.contains(after)) continue;
+      meet_at(slice, slice_hull(x.at(c, before), x.at(c, after), slopes_[c][k], duration(k)));
+    }
+  }
+
+  VariableId x_;
+  std::shared_ptr<const TimeLine> line_;
+  Program program_;
+  Inputs inputs_;
+  Evaluation evaluation_;
+  ItemSet new_slopes_;
+  std::vector<std::vector<Interval>> slopes_;  // [f] by component and slice
+  std::vector<std::vector<Interval>> steps_;   // [f] dt
+};
+
+}  // namespace
+
+std::unique_ptr<Contractor> make_derivative_contractor(std::string name, VariableId x, std::size_t dim, const Dag& dag,
+                                                       const std::vector<NodeId>& f, const Inputs::Context& context) {
+  Program program(dag, f);
+  Inputs inputs(program, context);
+  return std::make_unique<DerivativeContractor>(name, x, dim, std::move(program), std::move(inputs), context.line);
+}
+
+}  // namespace hcsp

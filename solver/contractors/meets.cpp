@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "solver/contractors/meets.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "domains/rounding.h"
+#include "domains/set_interval.h"
+#include "solver/contractors/ring.h"
+#include "solver/contractors/support_search.h"
+
+namespace hcsp {
+
+namespace {
+
+template <class Feel>
+class MeetsContractor final : public Contractor {
+ public:
+  MeetsContractor(std::string name, std::string constraint, VariableId set, Inputs inputs, Feel feel)
+      : Contractor(std::move(name), std::move(constraint), Cost::search, with(inputs.variables(), set),
+                   inputs.variables()),
+        set_(set), inputs_(std::move(inputs)), feel_(std::move(feel)),
+        search_(inputs_.contractible().size()), witnesses_(inputs_.items() * search_.faces(), kNoCell),
+        box_(inputs_.contractible().size()) {}
+
+  void contract(Access& access) override {
+    RoundUpward guard;
+    inputs_.open(access);
+    const SetInterval& set = access.domain<SetInterval>(set_);
+    const bool set_changed = !access.delta<SetInterval>(set_).is_none();
+    const ItemSet items = set_changed ? ItemSet::all(inputs_.items()) : inputs_.changed(access);
+    bool alive = true;
+    std::size_t neighbour = 0;
+    items.for_each([&](std::size_t item) {
+      if (!alive || inputs_.no_reading_at(item) || access.should_stop()) return;
+      alive = contract_at(set, item, neighbour);
+      if (!alive) access.fail(inputs_.variables().empty() ? set_ : inputs_.blamed(), inputs_.when(item));
+      neighbour = item;
+    });
+    inputs_.report(access);
+  }
+
+ private:
+  static std::vector<VariableId> with(std::vector<VariableId> variables, VariableId v) {
+    variables.push_back(v);
+    return variables;
+  }
+
+  bool contract_at(const SetInterval& set, std::size_t item, std::size_t neighbour) {
+    const auto& contractible = inputs_.contractible();
+    for (std::size_t i = 0; i < contractible.size(); ++i) box_[i] = inputs_.value(contractible[i], item);
+    feel_.at(inputs_, item, box_);
+    CellIndex* mine = &witnesses_[item * search_.faces()];
+    const CellIndex* theirs = &witnesses_[neighbour * search_.faces()];
+    const std::vector<Interval>& hull = search_.run(set, feel_, box_, mine, theirs);
+    if (search_.found_none()) return false;
+    bool alive = true;
+    for (std::size_t i = 0; i < contractible.size(); ++i) alive = inputs_.narrow(contractible[i], item, hull[i]) && alive;
+    return alive;
+  }
+
+  VariableId set_;
+  Inputs inputs_;
+  Feel feel_;
+  SupportSearch search_;
+  std::vector<CellIndex> witnesses_;  // by item and face: a cell that supported the face when last looked at
+  std::vector<Interval> box_;
+};
+
+// The general feeler: one HC4-revise of the relation with the bound point in a block.
+class RelationFeel {
+ public:
+  RelationFeel(Program program, const Inputs& inputs, std::size_t dim)
+      : program_(std::make_unique<Program>(std::move(program))), evaluation_(*program_), contractible_(inputs.contractible()),
+        point_(inputs.point()) {
+    point_.resize(dim, Inputs::kNone);
+  }
+
+  void at(const Inputs& inputs, std::size_t item, const std::vector<Interval>&) {
+    inputs_ = &inputs;
+    item_ = item;
+  }
+
+  // The part of the inputs' box that a point of the block supports; false when there is none.
+  bool operator()(const std::array<Interval, 3>& block, Interval* result) {
+    inputs_->load(evaluation_, item_);
+    for (std::size_t axis = 0; axis < point_.size(); ++axis) {
+      if (point_[axis] != Inputs::kNone) evaluation_.set(point_[axis], block[axis]);
+    }
+    evaluation_.forward();
+    if (!evaluation_.backward(kTrue)) return false;
+    for (std::size_t i = 0; i < contractible_.size(); ++i) result[i] = evaluation_.get(contractible_[i]);
+    return true;
+  }
+
+ private:
+  std::unique_ptr<const Program> program_;  // at a fixed address, for the evaluation
+  Evaluation evaluation_;
+  std::vector<std::uint32_t> contractible_, point_;
+  const Inputs* inputs_ = nullptr;
+  std::size_t item_ = 0;
+};
+
+// norm(a - e) == r with e and r inputs: the operations of the general path, in its order, without the bytecode.
+class RingFeel {
+ public:
+  RingFeel(const Ring& ring, std::array<std::size_t, 3> center, std::size_t radius)
+      : ring_(ring), center_(center), radius_(radius) {}
+
+  void at(const Inputs&, std::size_t, const std::vector<Interval>& box) { box_ = &box; }
+
+  bool operator()(const std::array<Interval, 3>& block, Interval* result) {
+    std::array<Interval, 3> difference, square, sum;
+    const std::vector<Interval>& box = *box_;
+    for (std::size_t k = 0; k < ring_.dim; ++k) {
+      const Interval& side = block[ring_.axis[k]];
+      const Interval& center = box[center_[k]];
+      difference[k] = ring_.point_first[k] ? up::sub(side, center) : up::sub(center, side);
+      square[k] = up::sqr(difference[k]);
+      sum[k] = k == 0 ? square[0] : up::add(sum[k - 1], square[k]);
+    }
+    Interval total = sum[ring_.dim - 1];
+    const Interval radius = meet(up::sqrt(total), box[radius_]);
+    if (radius.is_empty()) return false;
+    result[radius_] = radius;
+    total = up::sqrt_rev(radius, total);
+    Interval unused;
+    for (std::size_t k = ring_.dim; k-- > 0;) {
+      if (k == 0) {
+        square[0] = total;
+      } else {
+        Interval rest = sum[k - 1];
+        operators::Add::backward(total, rest, square[k], unused);
+        total = rest;
+      }
+      if (total.is_empty() || square[k].is_empty()) return false;
+      operators::Sqr::backward(square[k], difference[k], unused, unused);
+      Interval side = block[ring_.axis[k]], center = box[center_[k]];
+      if (difference[k].is_empty()) return false;
+      operators::Sub::backward(difference[k], ring_.point_first[k] ? side : center, ring_.point_first[k] ? center : side,
+                               unused);
+      if (side.is_empty() || center.is_empty()) return false;
+      result[center_[k]] = center;
+    }
+    return true;
+  }
+
+ private:
+  Ring ring_;
+  std::array<std::size_t, 3> center_;  // by term: its center's place in the box
+  std::size_t radius_;
+  const std::vector<Interval>* box_ = nullptr;
+};
+
+// A ring can be felt by the fast path when its center and radius are inputs themselves, all different.
+std::optional<RingFeel> ring_feel(const Dag& dag, NodeId relation, const Program& program, const Inputs& inputs,
+                                  std::size_t set_dim) {
+  const std::optional<Ring> ring = match_ring(dag, relation);
+  if (!ring || ring->relation != Op::equal || ring->dim != set_dim) return std::nullopt;
+  const auto place_of = [&](NodeId node) -> std::optional<std::size_t> {
+    if (dag[node].op != Op::input) return std::nullopt;
+    const auto& contractible = inputs.contractible();
+    const auto found = std::find(contractible.begin(), contractible.end(), program.register_of(node));
+    if (found == contractible.end()) return std::nullopt;
+    return static_cast<std::size_t>(found - contractible.begin());
+  };
+  std::array<std::size_t, 3> center{};
+  std::vector<std::size_t> used;
+  for (std::size_t k = 0; k < ring->dim; ++k) {
+    const auto place = place_of(ring->center[k]);
+    if (!place) return std::nullopt;
+    center[k] = *place;
+    used.push_back(*place);
+  }
+  const auto radius = place_of(ring->radius);
+  if (!radius) return std::nullopt;
+  used.push_back(*radius);
+  std::sort(used.begin(), used.end());
+  if (std::adjacent_find(used.begin(), used.end()) != used.end() || used.size() != inputs.contractible().size()) {
+    return std::nullopt;
+  }
+  return RingFeel(*ring, center, *radius);
+}
+
+}  // namespace
+
+std::unique_ptr<Contractor> make_meets_contractor(std::string name, std::string constraint, VariableId set,
+                                                  std::size_t set_dim, const Dag& dag, NodeId relation,
+                                                  const Inputs::Context& context, bool fast_paths) {
+  Program program(dag, {relation});
+  Inputs inputs(program, context);
+  if (fast_paths) {
+    if (auto ring = ring_feel(dag, relation, program, inputs, set_dim)) {
+      return std::make_unique<MeetsContractor<RingFeel>>(std::move(name), std::move(constraint), set, std::move(inputs),
+                                                         *ring);
+    }
+  }
+  RelationFeel feel(std::move(program), inputs, set_dim);
+  return std::make_unique<MeetsContractor<RelationFeel>>(std::move(name), std::move(constraint), set,
+                                                         std::move(inputs), std::move(feel));
+}
+
+}  // namespace hcsp

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "solver/contractors/relation.h"
+
+#include "domains/rounding.h"
+#include "solver/expression/operators.h"
+
+namespace hcsp {
+
+namespace {
+
+constexpr std::size_t kLanes = 64;
+
+class RelationContractor final : public Contractor {
+ public:
+  RelationContractor(const std::string& name, Program program, Inputs inputs)
+      : Contractor(name, name, inputs.timed() ? Cost::linear : Cost::constant, inputs.variables(), inputs.variables()),
+        program_(std::move(program)), inputs_(std::move(inputs)), evaluation_lanes_(inputs_.timed() ? kLanes : 1),
+        evaluation_(program_, evaluation_lanes_), items_(evaluation_lanes_) {}
+
+  void contract(Access& access) override {
+    RoundUpward guard;
+    inputs_.open(access);
+    std::size_t lanes = 0;
+    bool alive = true;
+    inputs_.changed(access).for_each([&](std::size_t item) {
+      if (!alive) return;
+      inputs_.load(evaluation_, item, lanes);
+      items_[lanes++] = item;
+      if (lanes == evaluation_lanes_) {
+        alive = contract_lanes(access, lanes);
+        lanes = 0;
+      }
+    });
+    if (alive && lanes > 0) contract_lanes(access, lanes);
+    inputs_.report(access);
+  }
+
+ private:
+  bool contract_lanes(Access& access, std::size_t lanes) {
+    evaluation_.forward(lanes);
+    if (!evaluation_.backward(kTrue, 0, lanes)) {
+      access.fail(inputs_.variables().empty() ? 0 : inputs_.blamed(), inputs_.when(items_[evaluation_.failed_lane()]));
+      return false;
+    }
+    bool alive = true;
+    for (std::size_t lane = 0; lane < lanes; ++lane) alive = inputs_.store(evaluation_, items_[lane], lane) && alive;
+    return alive;
+  }
+
+  Program program_;
+  Inputs inputs_;
+  std::size_t evaluation_lanes_;
+  Evaluation evaluation_;
+  std::vector<std::size_t> items_;  // by lane
+};
+
+}  // namespace
+
+std::unique_ptr<Contractor> make_relation_contractor(std::string name, const Dag& dag, NodeId relation,
+                                                     const Inputs::Context& context) {
+  Program program(dag, {relation});
+  Inputs inputs(program, context);
+  return std::make_unique<RelationContractor>(name, std::move(program), std::move(inputs));
+}
+
+}  // namespace hcsp

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "solver/contractors/ring.h"
+
+namespace hcsp {
+
+namespace {
+
+bool depends_on_point(const Dag& dag, NodeId id) {
+  const DagNode& node = dag[id];
+  if (node.op == Op::input) return node.input.kind == Input::Kind::point;
+  for (int k = 0; k < operator_entry(node.op).arity; ++k) {
+    if (depends_on_point(dag, node.operands[static_cast<std::size_t>(k)])) return true;
+  }
+  return false;
+}
+
+// One term sqr(a_k - e_k) of the squared norm.
+bool match_term(const Dag& dag, NodeId id, Ring& ring) {
+  if (dag[id].op != Op::sqr || ring.dim == 3) return false;
+  const DagNode& difference = dag[dag[id].operands[0]];
+  if (difference.op != Op::sub) return false;
+  for (const bool point_first : {true, false}) {
+    const NodeId point = difference.operands[point_first ? 0 : 1], center = difference.operands[point_first ? 1 : 0];
+    if (dag[point].op != Op::input || dag[point].input.kind != Input::Kind::point || depends_on_point(dag, center)) continue;
+    const std::size_t axis = dag[point].input.component;
+    for (std::size_t k = 0; k < ring.dim; ++k) {
+      if (ring.axis[k] == axis) return false;
+    }
+    ring.axis[ring.dim] = axis;
+    ring.point_first[ring.dim] = point_first;
+    ring.center[ring.dim] = center;
+    ++ring.dim;
+    return true;
+  }
+  return false;
+}
+
+// The sum ((t1 + t2) + t3), the shape that norm and dot write.
+bool match_sum(const Dag& dag, NodeId id, Ring& ring) {
+  if (dag[id].op != Op::add) return match_term(dag, id, ring);
+  return match_sum(dag, dag[id].operands[0], ring) && match_term(dag, dag[id].operands[1], ring);
+}
+
+}  // namespace
+
+std::optional<Ring> match_ring(const Dag& dag, NodeId relation) {
+  const DagNode& root = dag[relation];
+  if (root.op != Op::less && root.op != Op::less_equal && root.op != Op::equal) return std::nullopt;
+  for (int side = 0; side < (root.op == Op::equal ? 2 : 1); ++side) {
+    const NodeId norm = root.operands[static_cast<std::size_t>(side)];
+    Ring ring{root.op, 0, {}, {}, {}, root.operands[static_cast<std::size_t>(1 - side)]};
+    if (dag[norm].op != Op::sqrt || depends_on_point(dag, ring.radius)) continue;
+    if (match_sum(dag, dag[norm].operands[0], ring) && ring.dim >= 2) return ring;
+  }
+  return std::nullopt;
+}
+
+DiscZone::DiscZone(const Grid& grid, const Ring& ring, const std::array<Interval, 3>& center, const Interval& radius,
+                   Brush brush)
+    : grid_(grid), ring_(ring), center_(center), brush_(brush) {
+  // The general path compares roots: sqrt(s) < r. The root is monotone, so the greatest s whose upward root passes, and
+  // the least s whose downward root fails, decide the same with no root taken.
+  const bool strict = ring.relation == Op::less;
+  const auto passes = [&](double s) { return strict ? std::sqrt(s) < radius.lo() : std::sqrt(s) <= radius.lo(); };
+  const auto fails = [&](double s) { return strict ? up::sqrt_down(s) >= radius.hi() : up::sqrt_down(s) > radius.hi(); };
+  all_up_to_ = -1.0;
+  if (radius.lo() == kInfinity || radius.is_empty()) {
+    all_up_to_ = -1.0;
+  } else if (passes(0.0)) {
+    all_up_to_ = radius.lo() * radius.lo();
+    while (!passes(all_up_to_)) all_up_to_ = up::next_down(all_up_to_);
+    while (all_up_to_ < kInfinity && passes(up::next_up(all_up_to_))) all_up_to_ = up::next_up(all_up_to_);
+  }
+  none_from_ = kInfinity;
+  if (radius.is_empty() || fails(0.0)) {
+    none_from_ = 0.0;
+  } else if (radius.hi() < kInfinity) {
+    none_from_ = radius.hi() * radius.hi();
+    while (!fails(none_from_)) none_from_ = up::next_up(none_from_);
+    while (fails(up::next_down(none_from_))) none_from_ = up::next_down(none_from_);
+  }
+}
+
+Decision DiscZone::decide(const CellIndex& lo, std::int64_t edge) const {
+  Interval sum = squared(0, lo, edge);
+  for (std::size_t k = 1; k < ring_.dim; ++k) sum = up::add(sum, squared(k, lo, edge));
+  if (sum.hi() <= all_up_to_) return Decision::all;
+  if (sum.lo() >= none_from_) return Decision::none;
+  return brush_ == Brush::outer && edge == 1 ? Decision::all : Decision::split;
+}
+
+std::uint64_t DiscZone::decide_tile(const CellIndex& lo) const {
+  const bool inner = brush_ == Brush::inner;
+  const double limit = inner ? all_up_to_ : none_from_;
+  const std::size_t side = ring_.dim == 2 ? 8 : 4;
+  // By term of the sum, the bound of the squared distance at each of the tile's columns along that term's axis.
+  std::array<std::array<double, 8>, 3> bound{};
+  for (std::size_t k = 0; k < ring_.dim; ++k) {
+    CellIndex cell = lo;
+    for (std::size_t i = 0; i < side; ++i, ++cell[ring_.axis[k]]) {
+      const Interval square = squared(k, cell, 1);
+      bound[k][i] = inner ? square.hi() : -square.lo();  // lower bounds negated: upward sums round them down
+    }
+  }
+  std::uint64_t cells = 0;
+  const int bits = ring_.dim == 2 ? 3 : 2;
+  std::array<int, 3> shift{};
+  for (std::size_t k = 0; k < ring_.dim; ++k) shift[k] = bits * static_cast<int>(ring_.axis[k]);
+  const std::size_t layers = ring_.dim == 2 ? 1 : side;
+  for (std::size_t h = 0; h < layers; ++h) {
+    for (std::size_t j = 0; j < side; ++j) {
+      for (std::size_t i = 0; i < side; ++i) {
+        double sum = bound[0][i] + bound[1][j];
+        if (ring_.dim == 3) sum += bound[2][h];
+        const bool in = inner ? sum <= limit : -sum < limit;
+        cells |= static_cast<std::uint64_t>(in) << ((i << shift[0]) + (j << shift[1]) + (ring_.dim == 3 ? h << shift[2] : 0));
+      }
+    }
+  }
+  return cells;
+}
+
+}  // namespace hcsp

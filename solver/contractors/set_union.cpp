@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "solver/contractors/set_union.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "domains/rounding.h"
+#include "domains/set_interval.h"
+#include "solver/contractors/ring.h"
+#include "solver/contractors/zone.h"
+
+namespace hcsp {
+
+namespace {
+
+// Where a zone is unbounded, painting stays within this many cells of the origin: a fixed region, so that the fixed
+// point does not depend on how far the tree has grown.
+constexpr std::int64_t kHome = 1024;
+
+std::vector<VariableId> with(std::vector<VariableId> variables, VariableId v) {
+  if (std::find(variables.begin(), variables.end(), v) == variables.end()) variables.push_back(v);
+  return variables;
+}
+
+Planes keep_painted(Planes target, Planes painted) { return {target.lower, target.upper & painted.lower}; }
+
+class UnionContractor final : public Contractor {
+ public:
+  UnionContractor(std::string name, std::string constraint, VariableId set, Program program, Inputs inputs,
+                  std::optional<Ring> ring)
+      : Contractor(std::move(name), std::move(constraint), Cost::search, with(inputs.variables(), set),
+                   with(inputs.variables(), set)),
+        set_(set), program_(std::move(program)), inputs_(std::move(inputs)), ring_(ring), evaluation_(program_),
+        hull_(program_), point_(inputs_.point()) {}
+
+  void contract(Access& access) override {
+    RoundUpward guard;
+    inputs_.open(access);
+    SetInterval& set = access.edit<SetInterval>(set_);
+    point_.resize(set.dim(), Inputs::kNone);
+    const ItemSet changed = inputs_.changed(access);
+    Region delta = paint_inner(access, set, changed);
+    if (!set.is_empty() && !changed.is_none()) delta.join(keep_outer(access, set));
+    if (!set.is_empty() && !set.root().all_upper) {
+      const bool set_changed = !access.delta<SetInterval>(set_).is_none() || !delta.is_none();
+      leave_out(access, set, set_changed ? ItemSet::all(inputs_.items()) : changed);
+    }
+    access.report<SetInterval>(set_, delta);
+    inputs_.report(access);
+  }
+
+ private:
+  // Paints what lies in the zone of an item, with a brush, into the lower plane of a set.
+  Region paint(SetInterval& set, std::size_t item, const Region& bounds, Brush brush) {
+    inputs_.load(evaluation_, item);
+    evaluation_.forward_before_point();
+    if (ring_ && ring_->dim == set.dim()) {
+      std::array<Interval, 3> center;
+      const std::uint32_t radius = program_.register_of(ring_->radius);
+      bool defined = evaluation_.defined(radius);
+      for (std::size_t k = 0; k < ring_->dim; ++k) {
+        const std::uint32_t place = program_.register_of(ring_->center[k]);
+        center[k] = evaluation_.get(place);
+        defined = defined && evaluation_.defined(place) && !center[k].is_empty();
+      }
+      if (defined) {
+        DiscZone disc(set.grid(), *ring_, center, evaluation_.get(radius), brush);
+        return set.include(bounds, disc);
+      }
+    }
+    RelationZone zone(set.grid(), point_, evaluation_, brush);
+    return set.include(bounds, zone);
+  }
+
+  Region paint_inner(Access& access, SetInterval& set, const ItemSet& items) {
+    Region delta;
+    items.for_each([&](std::size_t item) {
+      if (set.is_empty() || inputs_.no_reading_at(item) || access.should_stop()) return;
+      // The certain zone lies within the zone of any one choice of inputs, which is easier to bound.
+      inputs_.load(hull_, item);
+      for (std::uint32_t i = 0; i < program_.inputs().size(); ++i) {
+        if (program_.inputs()[i].kind != Input::Kind::point) hull_.set(i, one_of(hull_.get(i)));
+      }
+      const std::optional<Region> bounds = zone_bounds(set.grid());
+      if (bounds) delta.join(paint(set, item, clipped(*bounds), Brush::inner));
+    });
+    return delta;
+  }
+
+  // S+ := S+ without what no item's zone may hold. Says nothing unless every item has a reading and a bounded zone.
+  Region keep_outer(Access& access, SetInterval& set) {
+    std::vector<std::optional<Region>> bounds(inputs_.items());
+    for (std::size_t item = 0; item < inputs_.items(); ++item) {
+      if (inputs_.no_reading_at(item) || access.should_stop()) return {};
+      inputs_.load(hull_, item);
+      bounds[item] = zone_bounds(set.grid());
+      if (bounds[item] && !is_addressable(*bounds[item])) return {};
+    }
+    SetInterval painted(set.dim(), set.precision());
+    for (std::size_t item = 0; item < inputs_.items(); ++item) {
+      if (access.should_stop()) return {};
+      if (bounds[item]) paint(painted, item, *bounds[item], Brush::outer);
+    }
+    return combine(set, painted, keep_painted, SetInterval::everywhere());
+  }
+
+  static Interval one_of(const Interval& x) {
+    if (x.is_empty()) return x;
+    const double point = std::isfinite(x.lo()) ? x.lo() : (std::isfinite(x.hi()) ? x.hi() : 0.0);
+    return Interval::raw(point, point);
+  }
+
+  // The cells that a box around the zone touches, for the inputs in hull_; none when the zone is empty.
+  std::optional<Region> zone_bounds(const Grid& grid) {
+    for (const std::uint32_t p : point_) {
+      if (p != Inputs::kNone) hull_.set(p, Interval::entire());
+    }
+    hull_.forward();
+    if (!hull_.backward(kTrue)) return std::nullopt;
+    Region region;
+    for (std::size_t axis = 0; axis < grid.dim(); ++axis) {
+      const Interval side = point_[axis] == Inputs::kNone ? Interval::entire() : hull_.get(point_[axis]);
+      region.lo[axis] = side.lo() == -kInfinity ? -Grid::kReach : grid.cell_of(side.lo());
+      region.hi[axis] = side.hi() == kInfinity ? Grid::kReach : grid.cell_of(side.hi()) + 1;
+    }
+    return region;
+  }
+
+  [[nodiscard]] bool is_addressable(const Region& bounds) const {
+    for (std::size_t axis = 0; axis < point_.size(); ++axis) {
+      if (bounds.lo[axis] <= -Grid::kReach || bounds.hi[axis] >= Grid::kReach) return false;
+    }
+    return true;
+  }
+
+  [[nodiscard]] Region clipped(Region bounds) const {
+    for (std::size_t axis = 0; axis < point_.size(); ++axis) {
+      if (bounds.lo[axis] <= -Grid::kReach) bounds.lo[axis] = std::min(-kHome, bounds.hi[axis] - 1);
+      if (bounds.hi[axis] >= Grid::kReach) bounds.hi[axis] = std::max(kHome, bounds.lo[axis] + 1);
+    }
+    return bounds;
+  }
+
+  void leave_out(Access& access, const SetInterval& set, const ItemSet& items) {
+    bool alive = true;
+    items.for_each([&](std::size_t item) {
+      if (!alive || inputs_.no_reading_at(item) || access.should_stop()) return;
+      if (leave_out_of(set, set.root(), item)) return;
+      alive = false;
+      access.fail(inputs_.variables().empty() ? set_ : inputs_.blamed(), inputs_.when(item));
+    });
+  }
+
+  // Contracts the inputs at an item so that no point of the block's cells outside S+ lies in the zone. The points tried
+  // are corners of cells: a choice, but any point that is outside is a sound one. False when nothing is left.
+  bool leave_out_of(const SetInterval& set, const SetInterval::Block& block, std::size_t item) {
+    if (block.all_upper || !may_hold(set, block, item)) return true;
+    if (!block.any_upper) {
+      for (int corner = 0; corner < (1 << set.dim()); ++corner) {
+        if (!leave_out_point(set, block, corner, item)) return false;
+      }
+      if (!may_hold(set, block, item)) return true;
+    }
+    if (block.edge == 1) return true;
+    const auto parts = set.parts(block);
+    for (std::size_t i = 0; i < (std::size_t{1} << set.dim()); ++i) {
+      if (!leave_out_of(set, parts[i], item)) return false;
+    }
+    return true;
+  }
+
+  // Whether the zone may meet a block.
+  bool may_hold(const SetInterval& set, const SetInterval::Block& block, std::size_t item) {
+    inputs_.load(hull_, item);
+    for (std::size_t axis = 0; axis < point_.size(); ++axis) {
+      if (point_[axis] != Inputs::kNone) hull_.set(point_[axis], block_side(set.grid(), block.lo, block.edge, axis));
+    }
+    hull_.forward();
+    return !operators::is_false(hull_.get(program_.root()));
+  }
+
+  bool leave_out_point(const SetInterval& set, const SetInterval::Block& block, int corner, std::size_t item) {
+    inputs_.load(hull_, item);
+    for (std::size_t axis = 0; axis < point_.size(); ++axis) {
+      if (point_[axis] == Inputs::kNone) continue;
+      const Interval side = block_side(set.grid(), block.lo, block.edge, axis);
+      // Blocks are half-open: the last double before the far face is the corner that belongs to it.
+      const double at = ((corner >> axis) & 1) != 0 ? up::next_down(side.hi()) : side.lo();
+      hull_.set(point_[axis], Interval::raw(at, at));
+    }
+    hull_.forward();
+    return hull_.backward(kFalse) && inputs_.store(hull_, item);
+  }
+
+  VariableId set_;
+  Program program_;
+  Inputs inputs_;
+  std::optional<Ring> ring_;
+  Evaluation evaluation_;             // of the zone that is being painted
+  Evaluation hull_;                   // for all else
+  std::vector<std::uint32_t> point_;  // by axis of the set
+};
+
+}  // namespace
+
+std::unique_ptr<Contractor> make_union_contractor(std::string name, std::string constraint, VariableId set,
+                                                  const Dag& dag, NodeId relation, const Inputs::Context& context,
+                                                  bool fast_paths) {
+  Program program(dag, {relation});
+  Inputs inputs(program, context);
+  std::optional<Ring> ring = fast_paths ? match_ring(dag, relation) : std::nullopt;
+  if (ring && ring->relation == Op::equal) ring.reset();
+  return std::make_unique<UnionContractor>(std::move(name), std::move(constraint), set, std::move(program),
+                                           std::move(inputs), ring);
+}
+
+}  // namespace hcsp

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: Apache-2.0
+// The hull, over the cells of an upper bound S+, of what each cell supports of a box: a branch and bound down the tree.
+// A block whose support lies within the hull so far cannot widen it and is left out; by isotonicity that loses nothing,
+// so the hull is the same as over all cells, one by one. The search starts from witnesses, cells that supported the
+// faces of the box before: while they still do, no face can move and nothing is searched.
+#pragma once
+
+#include <algorithm>
+#include <vector>
+
+#include "domains/set_interval.h"
+
+namespace hcsp {
+
+inline constexpr CellIndex kNoCell{INT64_MIN, INT64_MIN, INT64_MIN};
+
+class SupportSearch {
+ public:
+  /// For boxes of `dim` intervals.
+  explicit SupportSearch(std::size_t dim) : dim_(dim), hull_(dim), support_(dim) {}
+
+  /// Two a dimension: the lower face of interval i is 2 i, the upper 2 i + 1.
+  [[nodiscard]] std::size_t faces() const { return 2 * dim_; }
+
+  /// feel(block, result) writes the part of `box` that some point of the block supports, or returns false. `witnesses`
+  /// has a cell a face, or kNoCell, and is kept up to date; `more` are further guesses.
+  template <class Feel>
+  const std::vector<Interval>& run(const SetInterval& set, Feel& feel, const std::vector<Interval>& box,
+                                   CellIndex* witnesses, const CellIndex* more) {
+    std::fill(hull_.begin(), hull_.end(), Interval::empty());
+    try_witnesses(set, feel, box, witnesses, witnesses);
+    try_witnesses(set, feel, box, more, witnesses);
+    if (hull_ == box) return hull_;
+    if (set.background() != CellState::outside) search_beyond(set, feel);
+    const SetInterval::Block root = set.root();
+    if (!root.any_upper) return hull_;
+    reserve(root.edge, set.dim());
+    Interval* support = &arena_[0];
+    if (feel(box_of(set, root), support)) explore(set, feel, root, support, support + dim_, witnesses);
+    return hull_;
+  }
+
+  /// No cell supported anything.
+  [[nodiscard]] bool found_none() const { return dim_ > 0 && hull_[0].is_empty(); }
+
+ private:
+  static std::array<Interval, 3> box_of(const SetInterval& set, const SetInterval::Block& block) {
+    std::array<Interval, 3> box;
+    for (std::size_t axis = 0; axis < set.dim(); ++axis) {
+      box[axis] = Interval::raw(set.grid().line(block.lo[axis]), set.grid().line(block.lo[axis] + block.edge));
+    }
+    return box;
+  }
+
+  [[nodiscard]] bool widens(const Interval* support) const {
+    for (std::size_t i = 0; i < dim_; ++i) {
+      if (!leq(support[i], hull_[i])) return true;
+    }
+    return false;
+  }
+
+  // How far a support reaches beyond the hull: the order in which to look at blocks. It changes no result.
+  [[nodiscard]] double reach(const Interval* support) const {
+    double reach = 0.0;
+    for (std::size_t i = 0; i < dim_; ++i) {
+      const Interval& known = hull_[i];
+      if (known.is_empty()) {
+        reach += std::min(support[i].hi() - support[i].lo(), 1e100);
+      } else {
+        reach += std::min(std::max(known.lo() - support[i].lo(), 0.0) + std::max(support[i].hi() - known.hi(), 0.0), 1e100);
+      }
+    }
+    return reach;
+  }
+
+  void widen(const Interval* support, const CellIndex& cell, CellIndex* witnesses) {
+    for (std::size_t i = 0; i < dim_; ++i) {
+      if (support[i].lo() < hull_[i].lo()) witnesses[2 * i] = cell;
+      if (support[i].hi() > hull_[i].hi()) witnesses[2 * i + 1] = cell;
+      hull_[i] = join(hull_[i], support[i]);
+    }
+  }
+
+  template <class Feel>
+  void try_witnesses(const SetInterval& set, Feel& feel, const std::vector<Interval>& box, const CellIndex* guesses,
+                     CellIndex* witnesses) {
+    for (std::size_t face = 0; face < faces(); ++face) {
+      const Interval& known = hull_[face / 2];
+      const bool supported = face % 2 == 0 ? known.lo() <= box[face / 2].lo() : known.hi() >= box[face / 2].hi();
+      const CellIndex cell = guesses[face];
+      if (supported || cell == kNoCell) continue;
+      const CellState state = set.at_cell(cell);
+      if (state != CellState::unknown && state != CellState::inside) continue;
+      SetInterval::Block block;
+      block.lo = cell;
+      block.edge = 1;
+      if (feel(box_of(set, block), support_.data())) widen(support_.data(), cell, witnesses);
+    }
+  }
+
+  // The space beyond the tree, as the half-spaces around the root.
+  template <class Feel>
+  void search_beyond(const SetInterval& set, Feel& feel) {
+    const std::array<Interval, 3> root = box_of(set, set.root());
+    for (std::size_t axis = 0; axis < set.dim(); ++axis) {
+      for (const bool above : {false, true}) {
+        std::array<Interval, 3> half;
+        half[axis] = above ? Interval::raw(root[axis].hi(), kInfinity) : Interval::raw(-kInfinity, root[axis].lo());
+        if (!feel(half, support_.data())) continue;
+        for (std::size_t i = 0; i < dim_; ++i) hull_[i] = join(hull_[i], support_[i]);
+      }
+    }
+  }
+
+  // Room for the supports of a block's parts at every depth: nothing is allocated in the search.
+  void reserve(std::int64_t edge, std::size_t set_dim) {
+    std::size_t depth = 1;
+    for (; edge > 1; edge /= 2) ++depth;
+    arena_.resize(std::max(arena_.size(), dim_ * (1 + depth * (std::size_t{1} << set_dim))));
+  }
+
+  // `support` is what the block supports; `free` is the arena from here on.
+  template <class Feel>
+  void explore(const SetInterval& set, Feel& feel, const SetInterval::Block& block, const Interval* support,
+               Interval* free, CellIndex* witnesses) {
+    if (!widens(support)) return;
+    if (block.edge == 1) return widen(support, block.lo, witnesses);
+    const std::array<SetInterval::Block, 8> parts = set.parts(block);
+    const std::size_t count = std::size_t{1} << set.dim();
+    std::array<double, 8> reaches{};  // negative: nothing there, or done
+    reaches.fill(-1.0);
+    for (std::size_t i = 0; i < count; ++i) {
+      Interval* of_part = free + i * dim_;
+      if (parts[i].any_upper && feel(box_of(set, parts[i]), of_part) && widens(of_part)) reaches[i] = reach(of_part);
+    }
+    for (;;) {  // the part that reaches furthest first
+      const auto best = std::max_element(reaches.begin(), reaches.end());
+      if (*best < 0) return;
+      *best = -1.0;
+      const auto i = static_cast<std::size_t>(best - reaches.begin());
+      explore(set, feel, parts[i], free + i * dim_, free + count * dim_, witnesses);
+    }
+  }
+
+  std::size_t dim_;
+  std::vector<Interval> hull_, support_, arena_;
+};
+
+}  // namespace hcsp

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "solver/engine/graph.h"
+
+#include <algorithm>
+
+namespace hcsp {
+
+VariableId ContractorGraph::add_slot(std::string name, bool hidden, std::unique_ptr<Slot> slot) {
+  const bool taken = std::any_of(variables_.begin(), variables_.end(), [&](const Variable& v) { return v.name() == name; });
+  require(!taken, "ContractorGraph: there is a variable {} already", name);
+  variables_.emplace_back(std::move(name), hidden, std::move(slot));
+  return static_cast<VariableId>(variables_.size() - 1);
+}
+
+ContractorId ContractorGraph::add_contractor(std::unique_ptr<Contractor> contractor) {
+  const auto id = static_cast<ContractorId>(contractors_.size());
+  for (const VariableId v : contractor->writes()) {
+    require(v < variables_.size(), "ContractorGraph: contractor {} writes an unknown variable", contractor->name());
+  }
+  for (const VariableId v : contractor->reads()) {
+    require(v < variables_.size(), "ContractorGraph: contractor {} reads an unknown variable", contractor->name());
+    variables_[v].readers_.push_back(id);
+  }
+  contractors_.push_back(std::move(contractor));
+  return id;
+}
+
+}  // namespace hcsp

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "solver/engine/propagation.h"
+
+#include <algorithm>
+#include <chrono>
+#include <random>
+
+namespace hcsp {
+
+Clock steady_clock() {
+  return [] { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); };
+}
+
+void Access::fail(VariableId variable, std::optional<std::array<double, 2>> time) {
+  if (!run_.failure_) run_.failure_ = Failure{contractor_, variable, time};
+}
+
+bool Access::should_stop() const { return run_.failure_.has_value() || run_.out_of_limits(); }
+unsigned Access::threads() const { return run_.options_.threads; }
+
+Propagation::Propagation(const ContractorGraph& graph, PropagationOptions options)
+    : graph_(graph), options_(std::move(options)), started_(options_.clock()), counts_(graph.contractors().size()) {
+  for (const auto& variable : graph.variables()) slots_.push_back(variable.initial().clone());
+  const std::size_t contractors = graph.contractors().size();
+  for (ContractorId id = 0; id < contractors; ++id) {
+    access_.push_back(Access(*this, id));
+    access_.back().places_.assign(graph.variables().size(), 0);
+    schedule_.push_back(id);
+  }
+  for (VariableId v = 0; v < graph.variables().size(); ++v) {
+    const auto& readers = graph.variable(v).readers();
+    for (std::size_t place = 0; place < readers.size(); ++place) access_[readers[place]].places_[v] = place;
+  }
+  if (options_.order == Order::reversed) std::reverse(schedule_.begin(), schedule_.end());
+  if (options_.order == Order::shuffled) {
+    std::mt19937_64 random(options_.seed);
+    std::shuffle(schedule_.begin(), schedule_.end(), random);
+  }
+  std::stable_sort(schedule_.begin(), schedule_.end(), [&](ContractorId a, ContractorId b) {
+    return graph.contractors()[a]->cost() < graph.contractors()[b]->cost();
+  });
+}
+
+std::optional<ContractorId> Propagation::next_awake() {
+  const auto found = std::find_if(schedule_.begin(), schedule_.end(), [&](ContractorId id) { return awake_[id]; });
+  if (found == schedule_.end()) return std::nullopt;
+  return *found;
+}
+
+bool Propagation::out_of_limits() const {
+  if (options_.cancel != nullptr && options_.cancel->load(std::memory_order_relaxed)) return true;
+  return options_.time_limit > 0 && elapsed() >= options_.time_limit;
+}
+
+void Propagation::run_contractor(ContractorId id, Observer* observer) {
+  Contractor& contractor = *graph_.contractors()[id];
+  awake_[id] = false;
+  ran_this_pass_[id] = true;
+  for (const VariableId v : contractor.reads()) slots_[v]->hand_over(access_[id].places_[v]);
+  if (observer != nullptr) observer->before_contractor(*this, id);
+  const double before = options_.clock();
+  contractor.contract(access_[id]);
+  counts_[id].seconds += options_.clock() - before;
+  ++counts_[id].calls;
+  if (observer != nullptr) observer->after_contractor(*this, id);
+}
+
+// Ends a pass: no contractor runs twice in one. True when the threshold says that this was the last.
+bool Propagation::end_pass(Observer* observer) {
+  std::fill(ran_this_pass_.begin(), ran_this_pass_.end(), false);
+  if (observer != nullptr) observer->after_pass(*this);
+  if (options_.progress) options_.progress(pass_, elapsed());
+  if (options_.threshold <= 0) return false;
+  bool small = pass_ > 1;
+  open_.resize(slots_.size(), 0.0);
+  for (std::size_t v = 0; v < slots_.size(); ++v) {
+    const double open = slots_[v]->open();
+    if (open < (1.0 - options_.threshold) * open_[v]) small = false;
+    open_[v] = open;
+  }
+  return small;
+}
+
+Ending Propagation::run(Observer* observer) {
+  for (VariableId v = 0; v < slots_.size(); ++v) {
+    slots_[v]->wake_all(graph_.variable(v).readers().size());
+  }
+  awake_.assign(graph_.contractors().size(), true);
+  ran_this_pass_.assign(graph_.contractors().size(), false);
+  failure_.reset();
+  pass_ = 1;
+  for (auto next = next_awake(); next; next = next_awake()) {
+    if (out_of_limits()) return Ending::limit;
+    if (ran_this_pass_[*next]) {
+      if (end_pass(observer)) return Ending::limit;
+      ++pass_;
+    }
+    run_contractor(*next, observer);
+    if (failure_) break;
+  }
+  static_cast<void>(end_pass(observer));
+  if (failure_) return Ending::empty;
+  return out_of_limits() ? Ending::limit : Ending::fixed_point;
+}
+
+}  // namespace hcsp

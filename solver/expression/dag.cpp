@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "solver/expression/dag.h"
+
+#include <algorithm>
+
+#include "domains/check.h"
+#include "solver/expression/operators.h"
+
+namespace hcsp {
+
+NodeId Dag::intern(const DagNode& node) {
+  const Key key{node.op, node.operands, node.value.lo(), node.value.hi(), node.input};
+  const auto [place, added] = known_.try_emplace(key, static_cast<NodeId>(nodes_.size()));
+  if (added) nodes_.push_back(node);
+  return place->second;
+}
+
+NodeId Dag::constant(const Interval& value) {
+  DagNode node;
+  node.value = value;
+  return intern(node);
+}
+
+NodeId Dag::input(const Input& input) {
+  DagNode node;
+  node.op = Op::input;
+  node.input = input;
+  return intern(node);
+}
+
+NodeId Dag::apply(Op op, std::array<NodeId, 3> operands, int count) {
+  const OperatorEntry& entry = operator_entry(op);
+  require(entry.arity == count && count > 0, "Dag: the operator {} takes {} operands, not {}", entry.name, entry.arity, count);
+  for (int k = 0; k < count; ++k) {
+    require(operands[static_cast<std::size_t>(k)] < nodes_.size(), "Dag: operand {} is not a node", k);
+  }
+  std::fill(operands.begin() + count, operands.end(), NodeId{0});
+  // A product of a node with itself is never negative, which a product of two unknowns could be.
+  if (op == Op::mul && operands[0] == operands[1]) return apply(Op::sqr, {operands[0]}, 1);
+  DagNode node;
+  node.op = op;
+  node.operands = operands;
+  return intern(node);
+}
+
+}  // namespace hcsp

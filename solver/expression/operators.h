@@ -1,0 +1,236 @@
+// SPDX-License-Identifier: Apache-2.0
+// The operators of expressions: one operator, one struct, and one table of them all. A struct tells
+//   forward    an enclosure of the values on a box of operands (upward rounding: interval_kernel.h);
+//   defined    whether the operator is defined on all of that box (the decoration `def` of IEEE 1788-2015, 11.2);
+//   backward   contracts the operands to the part from which a value in y can come (HC4-revise);
+//   partial    the derivative with regard to operand k, as a node.
+// On tubes every operator acts pointwise, item by item: program.h runs it over ranges of items.
+// Booleans are the non-empty subsets of {0, 1} as intervals. Relations and connectives are total.
+#pragma once
+
+#include <array>
+#include <string_view>
+
+#include "domains/interval_kernel.h"
+#include "solver/expression/dag.h"
+
+namespace hcsp {
+
+inline constexpr Interval kTrue = Interval::raw(1.0, 1.0);
+inline constexpr Interval kFalse = Interval::raw(0.0, 0.0);
+inline constexpr Interval kEither = Interval::raw(0.0, 1.0);
+
+/// What the graph and its printers need to know of an operator.
+struct OperatorEntry {
+  std::string_view name;
+  int arity;
+  /// The derivative of node y = op(operands) with regard to operand k; throws std::invalid_argument where the operator
+  /// has none (relations, connectives, a choice's condition).
+  NodeId (*partial)(Dag& dag, NodeId y, int k);
+};
+
+const OperatorEntry& operator_entry(Op op);
+
+namespace operators {
+
+using I = Interval;
+
+/// Defaults of an operator that is total on the reals.
+struct Total {
+  static bool defined(const I&, const I&, const I&) { return true; }
+};
+
+struct Neg : Total {
+  static I forward(const I& a, const I&, const I&) { return -a; }
+  static void backward(const I& y, I& a, I&, I&) { a = meet(a, -y); }
+};
+
+struct Add : Total {
+  static I forward(const I& a, const I& b, const I&) { return up::add(a, b); }
+  static void backward(const I& y, I& a, I& b, I&) {
+    a = meet(a, up::sub(y, b));
+    b = meet(b, up::sub(y, a));
+  }
+};
+
+struct Sub : Total {
+  static I forward(const I& a, const I& b, const I&) { return up::sub(a, b); }
+  static void backward(const I& y, I& a, I& b, I&) {
+    a = meet(a, up::add(y, b));
+    b = meet(b, up::sub(a, y));
+  }
+};
+
+struct Mul : Total {
+  static I forward(const I& a, const I& b, const I&) { return up::mul(a, b); }
+  static void backward(const I& y, I& a, I& b, I&) {
+    a = up::mul_rev(b, y, a);
+    b = up::mul_rev(a, y, b);
+  }
+};
+
+struct Div {
+  static bool defined(const I&, const I& b, const I&) { return !b.contains(0.0); }
+  static I forward(const I& a, const I& b, const I&) { return up::div(a, b); }
+  static void backward(const I& y, I& a, I& b, I&) {
+    a = meet(a, up::mul(y, b));
+    b = up::mul_rev(y, a, b);
+  }
+};
+
+struct Sqr : Total {
+  static I forward(const I& a, const I&, const I&) { return up::sqr(a); }
+  static void backward(const I& y, I& a, I&, I&) { a = up::sqr_rev(y, a); }
+};
+
+struct Sqrt {
+  static bool defined(const I& a, const I&, const I&) { return a.lo() >= 0; }
+  static I forward(const I& a, const I&, const I&) { return up::sqrt(a); }
+  static void backward(const I& y, I& a, I&, I&) { a = up::sqrt_rev(y, a); }
+};
+
+struct Abs : Total {
+  static I forward(const I& a, const I&, const I&) { return up::abs(a); }
+  static void backward(const I& y, I& a, I&, I&) { a = up::abs_rev(y, a); }
+};
+
+struct Min : Total {
+  static I forward(const I& a, const I& b, const I&) { return up::min(a, b); }
+  static void backward(const I& y, I& a, I& b, I&) {
+    a = up::min_rev(b, y, a);
+    b = up::min_rev(a, y, b);
+  }
+};
+
+struct Max : Total {
+  static I forward(const I& a, const I& b, const I&) { return up::max(a, b); }
+  static void backward(const I& y, I& a, I& b, I&) {
+    a = up::max_rev(b, y, a);
+    b = up::max_rev(a, y, b);
+  }
+};
+
+struct Sin : Total {
+  static I forward(const I& a, const I&, const I&) { return hcsp::sin(a); }
+  static void backward(const I& y, I& a, I&, I&) { a = sin_rev(y, a); }
+};
+
+struct Cos : Total {
+  static I forward(const I& a, const I&, const I&) { return hcsp::cos(a); }
+  static void backward(const I& y, I& a, I&, I&) { a = cos_rev(y, a); }
+};
+
+struct Atan2 {
+  static bool defined(const I& y, const I& x, const I&) { return !(y.contains(0.0) && x.contains(0.0)); }
+  static I forward(const I& y, const I& x, const I&) { return hcsp::atan2(y, x); }
+  static void backward(const I& angle, I& y, I& x, I&) {
+    if (!atan2_rev(angle, y, x)) y = x = I::empty();
+  }
+};
+
+// Relations: {1} only where certain for all operands in the box, {0} only where certain for none. Asked to be true they
+// contract; asked to be false they contract by the negation (the program sees to it that the operands are defined).
+
+inline I from_bounds(bool always, bool never) { return always ? kTrue : (never ? kFalse : kEither); }
+inline bool is_true(const I& y) { return y.lo() == 1.0; }
+inline bool is_false(const I& y) { return y.hi() == 0.0; }
+
+inline void at_most(I& a, I& b) {
+  a = meet(a, I::raw(-kInfinity, b.hi()));
+  b = meet(b, I::raw(a.lo(), kInfinity));
+}
+inline void equate(I& a, I& b) { a = b = meet(a, b); }
+
+struct Less : Total {
+  static I forward(const I& a, const I& b, const I&) { return from_bounds(a.hi() < b.lo(), a.lo() >= b.hi()); }
+  static void backward(const I& y, I& a, I& b, I&) {
+    if (is_true(y)) at_most(a, b);  // the closure of <
+    if (is_false(y)) at_most(b, a);
+  }
+};
+
+struct LessEqual : Total {
+  static I forward(const I& a, const I& b, const I&) { return from_bounds(a.hi() <= b.lo(), a.lo() > b.hi()); }
+  static void backward(const I& y, I& a, I& b, I&) {
+    if (is_true(y)) at_most(a, b);
+    if (is_false(y)) at_most(b, a);
+  }
+};
+
+struct Equal : Total {
+  static I forward(const I& a, const I& b, const I&) {
+    return from_bounds(a.is_point() && a == b, meet(a, b).is_empty());
+  }
+  static void backward(const I& y, I& a, I& b, I&) {
+    if (is_true(y)) equate(a, b);
+  }
+};
+
+struct NotEqual : Total {
+  static I forward(const I& a, const I& b, const I&) {
+    return from_bounds(meet(a, b).is_empty(), a.is_point() && a == b);
+  }
+  static void backward(const I& y, I& a, I& b, I&) {
+    if (is_false(y)) equate(a, b);
+  }
+};
+
+struct And : Total {
+  static I forward(const I& a, const I& b, const I&) { return up::min(a, b); }
+  static void backward(const I& y, I& a, I& b, I&) {
+    if (is_true(y)) {
+      a = meet(a, kTrue);
+      b = meet(b, kTrue);
+    } else if (is_false(y)) {
+      if (is_true(a)) b = meet(b, kFalse);
+      if (is_true(b)) a = meet(a, kFalse);
+    }
+  }
+};
+
+struct Or : Total {
+  static I forward(const I& a, const I& b, const I&) { return up::max(a, b); }
+  static void backward(const I& y, I& a, I& b, I&) {
+    if (is_false(y)) {
+      a = meet(a, kFalse);
+      b = meet(b, kFalse);
+    } else if (is_true(y)) {
+      if (is_false(a)) b = meet(b, kTrue);
+      if (is_false(b)) a = meet(a, kTrue);
+    }
+  }
+};
+
+struct Not : Total {
+  static I forward(const I& a, const I&, const I&) { return I::raw(1.0 - a.hi(), 1.0 - a.lo()); }
+  static void backward(const I& y, I& a, I&, I&) { a = meet(a, I::raw(1.0 - y.hi(), 1.0 - y.lo())); }
+};
+
+/// Operands: condition, then, otherwise. Total: the program tells the definedness of the branch that is taken.
+struct IfThenElse : Total {
+  static I forward(const I& condition, const I& a, const I& b) {
+    return is_true(condition) ? a : (is_false(condition) ? b : join(a, b));
+  }
+  static void backward(const I& y, I& condition, I& a, I& b) {
+    if (meet(y, a).is_empty()) condition = meet(condition, kFalse);
+    if (meet(y, b).is_empty()) condition = meet(condition, kTrue);
+    if (is_true(condition)) a = meet(a, y);
+    if (is_false(condition)) b = meet(b, y);
+  }
+};
+
+}  // namespace operators
+
+/// Every operator: its Op, its struct, its name in the language and its number of operands.
+#define HCSP_OPERATORS(X)                                                                        \
+  X(neg, Neg, "-", 1) X(add, Add, "+", 2) X(sub, Sub, "-", 2) X(mul, Mul, "*", 2)                \
+  X(div, Div, "/", 2) X(sqr, Sqr, "sqr", 1) X(sqrt, Sqrt, "sqrt", 1) X(abs, Abs, "abs", 1)       \
+  X(min, Min, "min", 2) X(max, Max, "max", 2) X(sin, Sin, "sin", 1) X(cos, Cos, "cos", 1)        \
+  X(atan2, Atan2, "atan2", 2) X(less, Less, "<", 2) X(less_equal, LessEqual, "<=", 2)            \
+  X(equal, Equal, "==", 2) X(not_equal, NotEqual, "!=", 2) X(logical_and, And, "and", 2)         \
+  X(logical_or, Or, "or", 2) X(logical_not, Not, "not", 1) X(if_then_else, IfThenElse, "if", 3)
+
+constexpr bool is_relation(Op op) { return op >= Op::less && op <= Op::not_equal; }
+constexpr bool is_boolean(Op op) { return op >= Op::less && op <= Op::logical_not; }
+
+}  // namespace hcsp

@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "solver/problem.h"
+
+#include <map>
+#include <set>
+
+#include "domains/check.h"
+#include "domains/rounding.h"
+#include "solver/contractors/derivative.h"
+#include "solver/contractors/disjoint.h"
+#include "solver/contractors/meets.h"
+#include "solver/contractors/relation.h"
+#include "solver/contractors/set_union.h"
+#include "solver/expression/operators.h"
+#include "solver/problem_run.h"
+
+namespace hcsp {
+
+struct Problem::Impl {
+  std::string name;
+  ContractorGraph graph;
+  Dag dag;
+  std::vector<DomainKind> kinds;  // by variable
+  std::shared_ptr<const TimeLine> line;
+  std::shared_ptr<std::set<VariableId>> sampled = std::make_shared<std::set<VariableId>>();
+  std::map<VariableId, std::vector<Reading>> readings;
+  bool fast_paths = true;
+
+  [[nodiscard]] Inputs::Context context() const { return {line, sampled}; }
+
+  template <Lattice D>
+  VariableId add(std::string variable, D domain, DomainKind kind, bool hidden = false) {
+    const VariableId id = graph.add_variable(std::move(variable), std::move(domain), hidden);
+    kinds.push_back(kind);
+    return id;
+  }
+
+  Expr input(Input::Kind kind, VariableId variable, std::size_t component, std::size_t gate = 0) {
+    const Input leaf{kind, variable, static_cast<std::uint32_t>(component), static_cast<std::uint32_t>(gate)};
+    return {dag, dag.input(leaf)};
+  }
+
+  VectorExpr inputs(Input::Kind kind, VariableId variable, std::size_t dim, std::size_t gate = 0) {
+    VectorExpr vector;
+    for (std::size_t c = 0; c < dim; ++c) vector.push_back(input(kind, variable, c, gate));
+    return vector;
+  }
+
+  NodeId relation_of(Expr relation) const {
+    require(&relation.dag() == &dag, "Problem: the relation belongs to another problem");
+    require(is_boolean(dag[relation.node()].op), "Problem: the expression is no relation");
+    return relation.node();
+  }
+
+  void need_line() const { require(line != nullptr, "Problem: set_time_line comes before the first tube"); }
+};
+
+Problem::Problem(std::string name) : impl_(std::make_unique<Impl>()) { impl_->name = std::move(name); }
+Problem::~Problem() = default;
+
+RealVariable Problem::real(std::string name, const Interval& domain) {
+  return {impl_->add(std::move(name), domain, DomainKind::real)};
+}
+
+VectorVariable Problem::vector(std::string name, const Box& domain) {
+  require(domain.dim() > 0, "Problem: the vector {} has no components", name);
+  return {impl_->add(std::move(name), domain, DomainKind::vector), static_cast<std::size_t>(domain.dim())};
+}
+
+void Problem::set_time_line(TimeLine line) {
+  require(impl_->line == nullptr, "Problem: there is one time line, and it is set already");
+  impl_->line = std::make_shared<const TimeLine>(std::move(line));
+}
+
+const std::shared_ptr<const TimeLine>& Problem::time_line() const { return impl_->line; }
+
+TubeVariable Problem::tube(std::string name, std::size_t dim) {
+  impl_->need_line();
+  return tube(std::move(name), Tube(impl_->line, dim));
+}
+
+TubeVariable Problem::tube(std::string name, const Tube& domain) {
+  impl_->need_line();
+  require(domain.line() == *impl_->line, "Problem: the tube {} stands on another time line", name);
+  return {impl_->add(std::move(name), domain, DomainKind::tube), domain.dim()};
+}
+
+void Problem::set_readings(TubeVariable tube, std::vector<Reading> readings) {
+  impl_->need_line();
+  for (const Reading& reading : readings) {
+    require(reading.gate <= impl_->line->slices(), "Problem: there is no gate {}", reading.gate);
+  }
+  impl_->sampled->insert(tube.id);
+  impl_->readings[tube.id] = std::move(readings);
+}
+
+SetVariable Problem::set(std::string name, std::size_t dim, double precision, const std::optional<Box>& frame) {
+  return {impl_->add(std::move(name), SetInterval(dim, precision, frame), DomainKind::set), dim};
+}
+
+Expr Problem::constant(const Interval& value) { return {impl_->dag, impl_->dag.constant(value)}; }
+Expr Problem::operator()(RealVariable x) { return impl_->input(Input::Kind::real, x.id, 0); }
+VectorExpr Problem::operator()(VectorVariable x) { return impl_->inputs(Input::Kind::vector, x.id, x.dim); }
+VectorExpr Problem::operator()(TubeVariable x) { return impl_->inputs(Input::Kind::tube, x.id, x.dim); }
+
+VectorExpr Problem::at(TubeVariable x, double t) {
+  impl_->need_line();
+  const auto gate = impl_->line->gate_at(t);
+  require(gate.has_value(), "Problem: {} is not an instant of the time line", t);
+  return impl_->inputs(Input::Kind::gate, x.id, x.dim, *gate);
+}
+
+Expr Problem::time() {
+  impl_->need_line();
+  return impl_->input(Input::Kind::time, 0, 0);
+}
+
+VectorExpr Problem::point(std::size_t dim) { return impl_->inputs(Input::Kind::point, 0, dim); }
+
+void Problem::constrain(std::string name, Expr relation) {
+  impl_->graph.add_contractor(
+      make_relation_contractor(std::move(name), impl_->dag, impl_->relation_of(relation), impl_->context()));
+}
+
+void Problem::constrain_derivative(std::string name, TubeVariable x, const VectorExpr& f) {
+  impl_->need_line();
+  require(f.size() == x.dim, "Problem: der of a tube of dimension {} and {} components", x.dim, f.size());
+  std::vector<NodeId> nodes;
+  for (const Expr& component : f) nodes.push_back(component.node());
+  impl_->graph.add_contractor(
+      make_derivative_contractor(std::move(name), x.id, x.dim, impl_->dag, nodes, impl_->context()));
+}
+
+void Problem::constrain_union(std::string name, SetVariable set, const SetBuilder& zone) {
+  require(zone.dim == set.dim, "Problem: a zone of R^{} for a set of R^{}", zone.dim, set.dim);
+  impl_->graph.add_contractor(make_union_contractor(name, name, set.id, impl_->dag, impl_->relation_of(zone.relation),
+                                                    impl_->context(), impl_->fast_paths));
+}
+
+void Problem::constrain_disjoint(std::string name, SetVariable a, SetVariable b) {
+  require(impl_->graph.initial<SetInterval>(a.id).grid() == impl_->graph.initial<SetInterval>(b.id).grid(),
+          "Problem: disjoint sets need equal dimensions and precisions");
+  impl_->graph.add_contractor(make_disjoint_contractor(name, name, a.id, b.id));
+}
+
+void Problem::constrain_meets(std::string name, const SetBuilder& zone, SetVariable set) {
+  require(zone.dim == set.dim, "Problem: a zone of R^{} for a set of R^{}", zone.dim, set.dim);
+  impl_->graph.add_contractor(make_meets_contractor(name, name, set.id, set.dim, impl_->dag,
+                                                    impl_->relation_of(zone.relation), impl_->context(),
+                                                    impl_->fast_paths));
+}
+
+void Problem::constrain_range(std::string name, Expr z, const VectorExpr& a, Expr delta, SetVariable map) {
+  require(a.size() == map.dim, "Problem: a point of R^{} in a map of R^{}", a.size(), map.dim);
+  const SetInterval& domain = impl_->graph.initial<SetInterval>(map.id);
+  const VariableId dug = impl_->add(name + ".dug space", SetInterval(map.dim, domain.precision()), DomainKind::set, true);
+  // Theorem 1 digs the open zone, delta < z: with the closed one it would contradict Theorem 2.
+  impl_->graph.add_contractor(make_union_contractor(name + ".dug", name, dug, impl_->dag, (delta < z).node(),
+                                                    impl_->context(), impl_->fast_paths));
+  impl_->graph.add_contractor(make_disjoint_contractor(name + ".free", name, dug, map.id));
+  impl_->graph.add_contractor(make_meets_contractor(name + ".impact", name, map.id, map.dim, impl_->dag,
+                                                    (delta == z).node(), impl_->context(), impl_->fast_paths));
+}
+
+void Problem::use_fast_paths(bool use) { impl_->fast_paths = use; }
+const std::string& Problem::name() const { return impl_->name; }
+const ContractorGraph& Problem::graph() const { return impl_->graph; }
+
+Result Problem::propagate(const PropagationOptions& options) {
+  return run_problem({impl_->name, impl_->graph, impl_->kinds, impl_->line, impl_->readings}, options);
+}
+
+}  // namespace hcsp

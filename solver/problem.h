@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: Apache-2.0
+// A problem: unknowns with their domains and the constraints between them. This is the primary way into hcsp; the
+// .hcsp language is its first client. A Problem compiles each constraint to contractors on one contractor graph
+// (the paper's Fig. 6) and solves it.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "domains/box.h"
+#include "domains/set_interval.h"
+#include "domains/tube.h"
+#include "solver/engine/graph.h"
+#include "solver/engine/propagation.h"
+#include "solver/expression/expr.h"
+#include "solver/result.h"
+
+namespace hcsp {
+
+// Handles of the unknowns; valid for the Problem that made them.
+struct RealVariable { VariableId id; };
+struct VectorVariable { VariableId id; std::size_t dim; };
+struct TubeVariable { VariableId id; std::size_t dim; };
+struct SetVariable { VariableId id; std::size_t dim; };
+
+/// { a | relation }: the points a of R^dim for which the relation holds. The relation may mention tubes (at the time
+/// at hand), reals and vectors. Made from Problem::point().
+struct SetBuilder {
+  std::size_t dim;
+  Expr relation;
+};
+
+/// A reading of a sampled tube: what an explanation's support is made of. `source` says where it came from
+/// ("log.range, row 35"); empty is fine.
+struct Reading {
+  std::size_t gate;
+  std::string source;
+};
+
+class Problem {
+ public:
+  explicit Problem(std::string name);
+  Problem(const Problem&) = delete;
+  Problem& operator=(const Problem&) = delete;
+  ~Problem();
+
+  // Unknowns. Names are unique: std::invalid_argument otherwise. A domain is what is known before any constraint.
+  RealVariable real(std::string name, const Interval& domain = {});
+  VectorVariable vector(std::string name, const Box& domain);
+  /// The one time line of the problem; to be set before the first tube.
+  void set_time_line(TimeLine line);
+  [[nodiscard]] const std::shared_ptr<const TimeLine>& time_line() const;
+  TubeVariable tube(std::string name, std::size_t dim);
+  TubeVariable tube(std::string name, const Tube& domain);
+  /// Declares which gates of a given tube are readings, for explanations of infeasibility.
+  void set_readings(TubeVariable tube, std::vector<Reading> readings);
+  /// A set of R^dim (1 to 3) on cells of edge `precision`. With a frame: nothing of the set is outside it.
+  SetVariable set(std::string name, std::size_t dim, double precision, const std::optional<Box>& frame = {});
+
+  // Expressions over the unknowns.
+  Expr constant(const Interval& value);
+  Expr operator()(RealVariable x);
+  VectorExpr operator()(VectorVariable x);
+  /// The tube at the time at hand.
+  VectorExpr operator()(TubeVariable x);
+  /// The tube at an instant of the time line; std::invalid_argument if t is none.
+  VectorExpr at(TubeVariable x, double t);
+  /// The identity tube t.
+  Expr time();
+  /// The bound point a of a set builder in R^dim.
+  VectorExpr point(std::size_t dim);
+
+  // Constraints. `name` is what statistics and explanations call it.
+  /// A relation. With tubes at the time at hand in it, it holds at every instant of the time line.
+  void constrain(std::string name, Expr relation);
+  /// der(x) == f for almost every t; x is continuous. f has x's dimension.
+  void constrain_derivative(std::string name, TubeVariable x, const VectorExpr& f);
+  /// set == union over t of zone(t); with no tube in the zone, set == zone.
+  void constrain_union(std::string name, SetVariable set, const SetBuilder& zone);
+  /// a and b share no point. Precisions must be equal: std::invalid_argument otherwise.
+  void constrain_disjoint(std::string name, SetVariable a, SetVariable b);
+  /// For every t, zone(t) meets the set.
+  void constrain_meets(std::string name, const SetBuilder& zone, SetVariable set);
+  /// z == min over a in map of delta(a), for every t: a rangefinder (Jaulin 2011, equations 1 to 3). The map is
+  /// closed. Decomposed by Theorems 1 and 2 with a hidden dug space of the map's precision.
+  void constrain_range(std::string name, Expr z, const VectorExpr& a, Expr delta, SetVariable map);
+
+  /// Whether special cases (the Euclidean ring) may replace the general paths in the constraints stated from here on;
+  /// true by default. The answer is the same, bit for bit.
+  void use_fast_paths(bool use);
+
+  /// Propagates to the fixed point. May be called again: each call starts from the declared domains.
+  Result propagate(const PropagationOptions& options = {});
+
+  [[nodiscard]] const std::string& name() const;
+  [[nodiscard]] const ContractorGraph& graph() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace hcsp

@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "solver/problem_run.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "solver/support.h"
+
+namespace hcsp {
+
+namespace {
+
+Domain domain_of(const ProblemView& problem, const Propagation& run, VariableId id) {
+  switch (problem.kinds[id]) {
+    case DomainKind::real: return run.domain<Interval>(id);
+    case DomainKind::vector: return run.domain<Box>(id);
+    case DomainKind::tube: return run.domain<Tube>(id);
+    case DomainKind::set: return run.domain<SetInterval>(id);
+  }
+  return Interval::empty();
+}
+
+std::vector<ResultVariable> declared_domains(const ProblemView& problem, const Propagation& run) {
+  std::vector<ResultVariable> variables;
+  for (VariableId id = 0; id < problem.kinds.size(); ++id) {
+    const auto& variable = problem.graph.variable(id);
+    if (!variable.hidden()) variables.push_back({variable.name(), domain_of(problem, run, id)});
+  }
+  return variables;
+}
+
+std::vector<Interval> components_at(const Tube& tube, std::size_t item) {
+  std::vector<Interval> components;
+  for (std::size_t c = 0; c < tube.dim(); ++c) components.push_back(tube.at(c, item));
+  return components;
+}
+
+// Records snapshots and traces as a run goes.
+class Recorder final : public Propagation::Observer {
+ public:
+  Recorder(const ProblemView& problem, const PropagationOptions& options, Result& result)
+      : problem_(problem), options_(options), result_(result) {}
+
+  void before_contractor(const Propagation& run, ContractorId id) override {
+    if (!options_.keep_trace) return;
+    before_.clear();
+    for (const VariableId v : problem_.graph.contractors()[id]->writes()) before_.push_back(domain_of(problem_, run, v));
+  }
+
+  void after_contractor(const Propagation& run, ContractorId id) override {
+    if (!options_.keep_trace) return;
+    const Contractor& contractor = *problem_.graph.contractors()[id];
+    for (std::size_t k = 0; k < contractor.writes().size(); ++k) {
+      const VariableId v = contractor.writes()[k];
+      TraceEntry entry{run.passes(), contractor.name(), problem_.graph.variable(v).name(), 0.0, 0.0, {}};
+      entry.measure_before = std::visit([](const auto& d) { return measure(d); }, before_[k]);
+      entry.measure_after = run.slot(v).open();
+      if (problem_.kinds[v] == DomainKind::tube) add_changes(entry, std::get<Tube>(before_[k]), run.domain<Tube>(v));
+      result_.trace.push_back(std::move(entry));
+    }
+  }
+
+  void after_pass(const Propagation& run) override {
+    if (options_.keep_snapshots) result_.snapshots.push_back({run.passes(), declared_domains(problem_, run)});
+  }
+
+ private:
+  static void add_changes(TraceEntry& entry, const Tube& before, const Tube& after) {
+    for (std::size_t item = 0; item < before.items(); ++item) {
+      std::vector<Interval> was = components_at(before, item), is = components_at(after, item);
+      if (was == is) continue;
+      const Interval span = before.line().span(item);
+      entry.changes.push_back({{span.lo(), span.hi()}, std::move(was), std::move(is)});
+    }
+  }
+
+  const ProblemView& problem_;
+  const PropagationOptions& options_;
+  Result& result_;
+  std::vector<Domain> before_;  // of the variables that the running contractor writes
+};
+
+// All readings of a problem, numbered through.
+struct NumberedReading {
+  VariableId variable;
+  const Reading* reading;
+};
+
+std::vector<NumberedReading> readings_of(const ProblemView& problem) {
+  std::vector<NumberedReading> readings;
+  for (const auto& [variable, list] : problem.readings) {
+    for (const Reading& reading : list) readings.push_back({variable, &reading});
+  }
+  return readings;
+}
+
+// Whether the problem is infeasible with only some of its readings: the others are unknown at their instants.
+bool infeasible_with(const ProblemView& problem, const PropagationOptions& options,
+                     const std::vector<NumberedReading>& readings, const std::vector<std::size_t>& kept) {
+  std::vector<bool> keep(readings.size(), false);
+  for (const std::size_t i : kept) keep[i] = true;
+  Propagation run(problem.graph, options);
+  for (const auto& [variable, list] : problem.readings) {
+    Tube tube = run.domain<Tube>(variable);
+    for (std::size_t i = 0; i < readings.size(); ++i) {
+      if (readings[i].variable != variable || keep[i]) continue;
+      for (std::size_t c = 0; c < tube.dim(); ++c) tube.set(c, 2 * readings[i].reading->gate, Interval::entire());
+    }
+    run.set_domain(variable, std::move(tube));
+  }
+  return run.run() == Ending::empty;
+}
+
+// The support of an infeasibility, the readings next to where it showed first.
+void explain(const ProblemView& problem, const PropagationOptions& options, double started, const Failure& failure,
+             Result& result) {
+  Explanation explanation;
+  explanation.constraint = problem.graph.contractors()[failure.contractor]->constraint();
+  explanation.variable = problem.graph.variable(failure.variable).name();
+  explanation.time = failure.time;
+  const std::vector<NumberedReading> readings = readings_of(problem);
+  if (options.explain && !readings.empty()) {
+    const auto time_of = [&](std::size_t i) { return problem.line->instants()[readings[i].reading->gate]; };
+    std::vector<std::size_t> preferred(readings.size());
+    for (std::size_t i = 0; i < preferred.size(); ++i) preferred[i] = i;
+    if (failure.time) {
+      const double when = (*failure.time)[0];
+      std::stable_sort(preferred.begin(), preferred.end(), [&](std::size_t i, std::size_t j) {
+        return std::abs(time_of(i) - when) < std::abs(time_of(j) - when);
+      });
+    }
+    const auto stop = [&] {
+      const bool cancelled = options.cancel != nullptr && options.cancel->load(std::memory_order_relaxed);
+      const bool late = options.time_limit > 0 && options.clock() - started >= options.time_limit;
+      if (cancelled || late) explanation.support_is_complete = false;
+      return cancelled || late;
+    };
+    PropagationOptions probe = options;
+    probe.keep_snapshots = probe.keep_trace = false;
+    probe.progress = {};
+    const auto infeasible = [&](const std::vector<std::size_t>& kept) {
+      return infeasible_with(problem, probe, readings, kept);
+    };
+    for (const std::size_t i : minimal_conflict(preferred, infeasible, stop)) {
+      explanation.support.push_back(
+          {problem.graph.variable(readings[i].variable).name(), time_of(i), readings[i].reading->source});
+    }
+  }
+  result.explanation = std::move(explanation);
+}
+
+}  // namespace
+
+Result run_problem(const ProblemView& problem, const PropagationOptions& options) {
+  Result result;
+  result.model = problem.name;
+  const double started = options.clock();
+  Propagation run(problem.graph, options);
+  Recorder recorder(problem, options, result);
+  const Ending ending = run.run(&recorder);
+  result.statistics.seconds = options.spent_before + options.clock() - started;
+  result.statistics.passes = run.passes();
+  result.statistics.threads = options.threads;
+  for (ContractorId id = 0; id < problem.graph.contractors().size(); ++id) {
+    const auto& count = run.counts()[id];
+    result.statistics.contractors.push_back({problem.graph.contractors()[id]->name(), count.calls, count.seconds});
+  }
+  result.status = ending == Ending::empty ? Status::infeasible
+                                          : (ending == Ending::limit ? Status::limit : Status::contracted);
+  result.variables = declared_domains(problem, run);
+  if (run.failure()) explain(problem, options, started, *run.failure(), result);
+  return result;
+}
+
+}  // namespace hcsp

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+// Running a problem's graph and telling what came of it, as a Result. Internal to the solver.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "solver/problem.h"
+
+namespace hcsp {
+
+/// Which of the library's domains a variable has.
+enum class DomainKind : std::uint8_t { real, vector, tube, set };
+
+struct ProblemView {
+  const std::string& name;
+  const ContractorGraph& graph;
+  const std::vector<DomainKind>& kinds;  // by variable
+  const std::shared_ptr<const TimeLine>& line;
+  const std::map<VariableId, std::vector<Reading>>& readings;
+};
+
+Result run_problem(const ProblemView& problem, const PropagationOptions& options);
+
+}  // namespace hcsp

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a solve answers: domains that contain every solution, and how they came about.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "domains/box.h"
+#include "domains/set_interval.h"
+#include "domains/tube.h"
+
+namespace hcsp {
+
+/// contracted: no solution was lost, whether one exists is not said; infeasible: proven, none exists;
+/// limit: stopped early, the domains are still guaranteed.
+enum class Status : std::uint8_t { contracted, infeasible, limit };
+
+std::string_view to_string(Status status);
+
+using Domain = std::variant<Interval, Box, Tube, SetInterval>;
+
+struct ResultVariable {
+  std::string name;
+  Domain domain;
+  [[nodiscard]] bool is_empty() const;
+};
+
+/// One reading of a sampled tube.
+struct SupportingReading {
+  std::string variable;
+  double time;
+  std::string source;
+};
+
+/// Why no solution exists: the constraint whose contractor found a domain empty, the variable that it emptied, when
+/// (for a tube), and readings that are jointly inconsistent: infeasible already when every other one is ignored.
+struct Explanation {
+  std::string constraint;
+  std::string variable;
+  std::optional<std::array<double, 2>> time;
+  std::vector<SupportingReading> support;
+  bool support_is_complete = true;  ///< false when a limit stopped the search for a small support
+};
+
+struct ContractorStatistics {
+  std::string name;
+  std::uint64_t calls = 0;
+  double seconds = 0.0;
+};
+
+struct Statistics {
+  double seconds = 0.0;
+  std::uint64_t passes = 0;
+  unsigned threads = 1;
+  std::vector<ContractorStatistics> contractors;
+};
+
+/// The domains after one pass, for the pictures of a propagation (the paper's Fig. 8).
+struct PassSnapshot {
+  std::uint64_t pass;
+  std::vector<ResultVariable> variables;
+};
+
+/// What one run of a contractor removed from one variable (the paper's Fig. 10).
+struct TraceEntry {
+  std::uint64_t pass;
+  std::string contractor;
+  std::string variable;
+  double measure_before;
+  double measure_after;
+  /// For a tube: every item that changed, its time span, and its bounds before and after, component by component.
+  struct Change {
+    std::array<double, 2> time;
+    std::vector<Interval> before;
+    std::vector<Interval> after;
+  };
+  std::vector<Change> changes;
+};
+
+struct Result {
+  std::string model;
+  Status status = Status::contracted;
+  std::vector<ResultVariable> variables;  ///< in the order of declaration, hidden ones left out
+  std::optional<Explanation> explanation;  ///< when infeasible
+  Statistics statistics;
+  std::vector<PassSnapshot> snapshots;  ///< when asked for
+  std::vector<TraceEntry> trace;        ///< when asked for
+
+  /// Throws std::out_of_range when no variable has that name.
+  [[nodiscard]] const Domain& operator[](std::string_view name) const;
+};
+
+}  // namespace hcsp

@@ -1,0 +1,20 @@
+# SPDX-License-Identifier: Apache-2.0
+# .clang-tidy does what it says: each of its groups catches the canary's mistakes, and real files are clean.
+find_program(HCSP_CLANG_TIDY NAMES clang-tidy-14 clang-tidy REQUIRED)
+set(canary ${CMAKE_CURRENT_SOURCE_DIR}/lint/canary.cpp)
+function(hcsp_add_canary name message)
+  add_test(NAME lint.canary_${name} COMMAND ${HCSP_CLANG_TIDY} --quiet ${canary} -- -std=c++20)
+  set_tests_properties(lint.canary_${name} PROPERTIES PASS_REGULAR_EXPRESSION "${message}")
+endfunction()
+hcsp_add_canary(type "invalid case style for struct 'bad_type_name'")
+hcsp_add_canary(function "invalid case style for (function|method) 'BadFunctionName'")
+hcsp_add_canary(private_member "invalid case style for private member 'value'")
+hcsp_add_canary(constant "invalid case style for global constant 'bad_constant'")
+hcsp_add_canary(bugprone "bugprone-use-after-move")
+hcsp_add_canary(performance "performance-unnecessary-value-param")
+foreach(file domains/interval.cpp solver/engine/graph.cpp examples/simulate_slam.cpp)
+  string(REPLACE "/" "_" name ${file})
+  add_test(NAME lint.${name} COMMAND ${HCSP_CLANG_TIDY} --quiet ${PROJECT_SOURCE_DIR}/${file} --
+    -std=c++20 -I${PROJECT_SOURCE_DIR} -isystem $<TARGET_PROPERTY:Eigen3::Eigen,INTERFACE_INCLUDE_DIRECTORIES>)
+  set_tests_properties(lint.${name} PROPERTIES TIMEOUT 120)
+endforeach()
