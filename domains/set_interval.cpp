@@ -161,6 +161,8 @@ Region SetInterval::everywhere() {
   return region;
 }
 
+bool SetInterval::has_outside() const { return background_.upper == 0 || has_cell(root_, kAll, CellState::outside); }
+
 // ---- The tree ----
 
 // A tree of L levels covers side^L cells along an axis from -o, where o has the digit side / 2 at each of its L places

@@ -59,6 +59,9 @@ class SetInterval {
   /// The state of a cell.
   [[nodiscard]] CellState at_cell(const CellIndex& cell) const;
 
+  /// Whether any of space is outside every member.
+  [[nodiscard]] bool has_outside() const;
+
   /// Boxes [lo1, hi1, lo2, hi2, ...] that tile the cells of a state, merged where they touch, as far as the tree reaches.
   [[nodiscard]] std::vector<std::vector<double>> boxes(CellState state) const;
   /// The same as boxes of cell indices.

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <stdexcept>
+#include <string>
 #include <vector>
 
 #include "tests/support/laws.h"
@@ -13,7 +14,7 @@ namespace hcsp {
 namespace {
 
 TEST(Box, ObeysTheLatticeLaws) {
-  testing::Dice dice;
+  oracle::Dice dice;
   std::vector<Box> samples = {Box(2),
                               bottom(Box(2)),
                               Box{{0, 1}, {0, 1}},
@@ -22,7 +23,7 @@ TEST(Box, ObeysTheLatticeLaws) {
                               Box{{0, 2}, {0, 2}},
                               Box{Interval(0), Interval(0)}};
   for (int i = 0; i < 6; ++i) samples.push_back(Box{dice.interval(), dice.interval()});
-  testing::check_lattice_laws(samples);
+  check_lattice_laws(samples);
 }
 
 TEST(Box, OfNoDimensionIsALatticeOfOneDomain) {
@@ -61,12 +62,12 @@ TEST(Box, MeasureIsTheWidestComponent) {
 }
 
 TEST(Box, PrintsItsComponents) {
-  EXPECT_EQ(to_string(Box{{0, 1}, {2, 5}}),
-            "(" + to_string(Interval(0, 1)) + ", " + to_string(Interval(2, 5)) + ")");
+  const std::string text = to_string(Box{{0, 1}, {2, 5}});
+  EXPECT_EQ(text, "([0, 1], [2, 5])");
 }
 
 TEST(IntervalMatrix, ProductsEncloseTheProductsOfPoints) {
-  testing::Dice dice;
+  oracle::Dice dice;
   for (int trial = 0; trial < 200; ++trial) {
     IntervalMatrix a(2, 2);
     IntervalVector x(2);
@@ -83,7 +84,7 @@ TEST(IntervalMatrix, ProductsEncloseTheProductsOfPoints) {
     const IntervalVector product = a * x;
     const Eigen::Vector2d exact = inner * point;
     EXPECT_TRUE(product(0).contains(exact(0)) && product(1).contains(exact(1)))
-        << "seed " << testing::Dice::kSeed;
+        << "seed " << oracle::Dice::kSeed;
   }
 }
 

@@ -18,8 +18,8 @@
 namespace hcsp {
 namespace {
 
-using testing::Dice;
-using testing::truth;
+using oracle::Dice;
+using oracle::truth;
 
 constexpr double kLargest = 0x1.fffffffffffffp1023;
 constexpr double kSmallest = 0x1p-1074;
@@ -42,7 +42,7 @@ TEST(Interval, ObeysTheLatticeLaws) {
                                    Interval(0, kInfinity),
                                    Interval(-kInfinity, -1)};
   for (int i = 0; i < 10; ++i) samples.push_back(dice.interval());
-  testing::check_lattice_laws(samples);
+  check_lattice_laws(samples);
 }
 
 TEST(Interval, RefusesWhatIsNoInterval) {
@@ -72,7 +72,7 @@ TEST(Interval, MeasuresItself) {
 }
 
 /// The hull of f at the corners of a and b, leaving out what is no number but 0 * oo = 0.
-Interval over_corners(testing::Binary f, const Interval& a, const Interval& b, bool zero_times_infinity) {
+Interval over_corners(oracle::Binary f, const Interval& a, const Interval& b, bool zero_times_infinity) {
   Interval hull = Interval::empty();
   for (const double x : {a.lo(), a.hi()}) {
     for (const double y : {b.lo(), b.hi()}) {
@@ -197,7 +197,7 @@ TEST(Interval, ReverseOperationsReachKnownHulls) {
 
 /// The truth about a literal: MPFR's value, rounded both ways.
 Interval true_literal(const std::string& text) {
-  testing::Real lo, hi;
+  oracle::Real lo, hi;
   mpfr_strtofr(lo.get(), text.c_str(), nullptr, 0, MPFR_RNDD);
   mpfr_strtofr(hi.get(), text.c_str(), nullptr, 0, MPFR_RNDU);
   return Interval::raw(mpfr_get_d(lo.get(), MPFR_RNDD), mpfr_get_d(hi.get(), MPFR_RNDU));

@@ -16,7 +16,7 @@
 namespace hcsp {
 namespace {
 
-using testing::Dice;
+using oracle::Dice;
 
 const int kModes[] = {FE_TONEAREST, FE_UPWARD, FE_DOWNWARD, FE_TOWARDZERO};
 
