@@ -6,7 +6,9 @@
 #pragma once
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 
 #include "domains/interval.h"
 
@@ -17,9 +19,15 @@ inline double sub_down(double a, double b) { return -(b - a); }
 inline double mul_down(double a, double b) { return -((-a) * b); }
 inline double div_down(double a, double b) { return -((-a) / b); }
 
-/// The greatest double below x: in upward rounding, stepping up from -x by less than any gap.
-inline double next_down(double x) { return -((-x) + std::numeric_limits<double>::denorm_min()); }
-inline double next_up(double x) { return x + std::numeric_limits<double>::denorm_min(); }
+/// The least double above x and the greatest below it, by stepping the bits: adding the least subnormal would do the
+/// same in upward rounding, but costs a microcode assist.
+inline double next_up(double x) {
+  if (x == kInfinity) return x;
+  const auto bits = std::bit_cast<std::int64_t>(x);
+  if ((bits & INT64_MAX) == 0) return std::numeric_limits<double>::denorm_min();
+  return std::bit_cast<double>(bits >= 0 ? bits + 1 : bits - 1);
+}
+inline double next_down(double x) { return -next_up(-x); }
 
 /// sqrt rounded down, for x >= 0: the upward root, unless its square (exact exactly when both roundings agree)
 /// tells that it was rounded.

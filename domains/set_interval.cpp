@@ -23,7 +23,7 @@ CellState state_of(const Planes& planes, int bit) {
 }
 
 // The part of a block's cells at the origin of its node, as a mask of children: part children along an axis.
-std::uint64_t mask_at_origin(std::size_t dim, int axis_bits, std::int64_t part) {
+constexpr std::uint64_t mask_at_origin(std::size_t dim, int axis_bits, std::int64_t part) {
   std::uint64_t mask = part == 64 ? kAll : (std::uint64_t{1} << part) - 1;
   for (std::size_t axis = 1; axis < dim; ++axis) {
     const std::uint64_t row = mask;
@@ -35,7 +35,7 @@ std::uint64_t mask_at_origin(std::size_t dim, int axis_bits, std::int64_t part) 
 
 using MaskTable = std::array<std::array<std::uint64_t, 7>, 4>;
 
-MaskTable make_masks() {
+constexpr MaskTable make_masks() {
   MaskTable table{};
   for (std::size_t dim = 1; dim <= 3; ++dim) {
     const int bits = 6 / static_cast<int>(dim);
@@ -43,6 +43,8 @@ MaskTable make_masks() {
   }
   return table;
 }
+
+constexpr MaskTable kMasks = make_masks();
 
 // The cells that the closed frame touches: half-open cells, so a face at line(i) touches cell i.
 Region touched_cells(const Grid& grid, const Box& frame) {
@@ -177,7 +179,6 @@ CellIndex SetInterval::root_origin() const {
 Region SetInterval::reach() const { return Region::block(root_origin(), root_edge(), dim()); }
 
 std::uint64_t SetInterval::part_mask(std::int64_t part, int bit) const {
-  static const MaskTable kMasks = make_masks();
   return kMasks[dim()][static_cast<std::size_t>(__builtin_ctzll(static_cast<std::uint64_t>(part)))] << bit;
 }
 

@@ -57,7 +57,7 @@ std::optional<Ring> match_ring(const Dag& dag, NodeId relation) {
 
 DiscZone::DiscZone(const Grid& grid, const Ring& ring, const std::array<Interval, 3>& center, const Interval& radius,
                    Brush brush)
-    : grid_(grid), ring_(ring), center_(center), brush_(brush) {
+    : grid_(grid), ring_(ring), center_(center), radius_(radius), brush_(brush) {
   // The general path compares roots: sqrt(s) < r. The root is monotone, so the greatest s whose upward root passes, and
   // the least s whose downward root fails, decide the same with no root taken.
   const bool strict = ring.relation == Op::less;
@@ -81,7 +81,33 @@ DiscZone::DiscZone(const Grid& grid, const Ring& ring, const std::array<Interval
   }
 }
 
+Region DiscZone::inner_bounds() const {
+  Region region;
+  for (std::size_t k = 0; k < ring_.dim; ++k) {
+    const double lo = up::sub_down(center_[k].hi(), radius_.lo()), hi = center_[k].lo() + radius_.lo();
+    if (!(lo <= hi)) return {};
+    region.lo[ring_.axis[k]] = grid_.cell_of(lo);
+    region.hi[ring_.axis[k]] = grid_.cell_of(hi) + 1;
+  }
+  return region;
+}
+
+// Whether no cell of a block lies in the discs of all centers: even the point of the block that is nearest to its
+// farthest center is too far. Along an axis, with centers [l, h], the farthest is max(a - l, h - a) away from a.
+bool DiscZone::too_far(const CellIndex& lo, std::int64_t edge) const {
+  double minus_sum = 0.0;  // negated: upward rounding makes it a lower bound
+  for (std::size_t k = 0; k < ring_.dim; ++k) {
+    const Interval side = block_side(grid_, lo, edge, ring_.axis[k]);
+    const double low = center_[k].lo(), high = center_[k].hi();
+    const double spread = -0.5 * (low - high);
+    const double farthest = std::max({up::sub_down(side.lo(), low), up::sub_down(high, side.hi()), up::next_down(spread)});
+    if (farthest > 0) minus_sum += -farthest * farthest;
+  }
+  return -minus_sum > all_up_to_;
+}
+
 Decision DiscZone::decide(const CellIndex& lo, std::int64_t edge) const {
+  if (brush_ == Brush::inner && too_far(lo, edge)) return Decision::none;
   Interval sum = squared(0, lo, edge);
   for (std::size_t k = 1; k < ring_.dim; ++k) sum = up::add(sum, squared(k, lo, edge));
   if (sum.hi() <= all_up_to_) return Decision::all;
@@ -91,6 +117,7 @@ Decision DiscZone::decide(const CellIndex& lo, std::int64_t edge) const {
 
 std::uint64_t DiscZone::decide_tile(const CellIndex& lo) const {
   const bool inner = brush_ == Brush::inner;
+  if (inner && too_far(lo, ring_.dim == 2 ? 8 : 4)) return 0;
   const double limit = inner ? all_up_to_ : none_from_;
   const std::size_t side = ring_.dim == 2 ? 8 : 4;
   // By term of the sum, the bound of the squared distance at each of the tile's columns along that term's axis.

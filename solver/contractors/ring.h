@@ -30,6 +30,8 @@ class DiscZone {
   /// center[k] and radius as the program's registers have them at the item; all defined.
   DiscZone(const Grid& grid, const Ring& ring, const std::array<Interval, 3>& center, const Interval& radius, Brush brush);
 
+  /// The cells that can be painted with the inner brush: those that a box around the discs' intersection touches.
+  [[nodiscard]] Region inner_bounds() const;
   [[nodiscard]] Decision decide(const CellIndex& lo, std::int64_t edge) const;
   [[nodiscard]] std::uint64_t decide_tile(const CellIndex& lo) const;
 
@@ -39,9 +41,12 @@ class DiscZone {
     return up::sqr(ring_.point_first[k] ? up::sub(side, center_[k]) : up::sub(center_[k], side));
   }
 
+  [[nodiscard]] bool too_far(const CellIndex& lo, std::int64_t edge) const;
+
   const Grid& grid_;
   const Ring& ring_;
   std::array<Interval, 3> center_;
+  Interval radius_;
   Brush brush_;
   double all_up_to_;    // a block lies in the disc when its greatest squared distance is at most this
   double none_from_;    // and outside when its least squared distance is at least this

@@ -30,8 +30,8 @@ class UnionContractor final : public Contractor {
                   std::optional<Ring> ring)
       : Contractor(std::move(name), std::move(constraint), Cost::search, with(inputs.variables(), set),
                    with(inputs.variables(), set)),
-        set_(set), program_(std::move(program)), inputs_(std::move(inputs)), ring_(ring), evaluation_(program_),
-        hull_(program_), point_(inputs_.point()) {}
+        set_(set), program_(std::move(program)), inputs_(std::move(inputs)), ring_(ring), point_(inputs_.point()),
+        zone_(program_, point_), hull_(program_) {}
 
   void contract(Access& access) override {
     RoundUpward guard;
@@ -41,7 +41,7 @@ class UnionContractor final : public Contractor {
     const ItemSet changed = inputs_.changed(access);
     Region delta = paint_inner(access, set, changed);
     if (!set.is_empty() && !changed.is_none()) delta.join(keep_outer(access, set));
-    if (!set.is_empty() && !set.root().all_upper) {
+    if (!set.is_empty() && set.has_outside()) {
       const bool set_changed = !access.delta<SetInterval>(set_).is_none() || !delta.is_none();
       leave_out(access, set, set_changed ? ItemSet::all(inputs_.items()) : changed);
     }
@@ -50,41 +50,43 @@ class UnionContractor final : public Contractor {
   }
 
  private:
-  // Paints what lies in the zone of an item, with a brush, into the lower plane of a set.
-  Region paint(SetInterval& set, std::size_t item, const Region& bounds, Brush brush) {
-    inputs_.load(evaluation_, item);
-    evaluation_.forward_before_point();
-    if (ring_ && ring_->dim == set.dim()) {
-      std::array<Interval, 3> center;
-      const std::uint32_t radius = program_.register_of(ring_->radius);
-      bool defined = evaluation_.defined(radius);
-      for (std::size_t k = 0; k < ring_->dim; ++k) {
-        const std::uint32_t place = program_.register_of(ring_->center[k]);
-        center[k] = evaluation_.get(place);
-        defined = defined && evaluation_.defined(place) && !center[k].is_empty();
-      }
-      if (defined) {
-        DiscZone disc(set.grid(), *ring_, center, evaluation_.get(radius), brush);
-        return set.include(bounds, disc);
-      }
+  // The disc of the item that zone_ is at, when the zone is one.
+  std::optional<DiscZone> disc(const Grid& grid, Brush brush) const {
+    if (!ring_ || ring_->dim != grid.dim()) return std::nullopt;
+    const Evaluation& evaluation = zone_.evaluation();
+    const std::uint32_t radius = program_.register_of(ring_->radius);
+    bool defined = evaluation.defined(radius);
+    std::array<Interval, 3> center;
+    for (std::size_t k = 0; k < ring_->dim; ++k) {
+      const std::uint32_t place = program_.register_of(ring_->center[k]);
+      center[k] = evaluation.get(place);
+      defined = defined && evaluation.defined(place) && !center[k].is_empty();
     }
-    RelationZone zone(set.grid(), point_, evaluation_, brush);
-    return set.include(bounds, zone);
+    if (!defined) return std::nullopt;
+    return DiscZone(grid, *ring_, center, evaluation.get(radius), brush);
   }
 
   Region paint_inner(Access& access, SetInterval& set, const ItemSet& items) {
     Region delta;
     items.for_each([&](std::size_t item) {
       if (set.is_empty() || inputs_.no_reading_at(item) || access.should_stop()) return;
-      // The certain zone lies within the zone of any one choice of inputs, which is easier to bound.
-      inputs_.load(hull_, item);
-      for (std::uint32_t i = 0; i < program_.inputs().size(); ++i) {
-        if (program_.inputs()[i].kind != Input::Kind::point) hull_.set(i, one_of(hull_.get(i)));
+      zone_.at(set.grid(), inputs_, item, Brush::inner);
+      if (auto zone = disc(set.grid(), Brush::inner)) {
+        delta.join(set.include(clipped(zone->inner_bounds()), *zone));
+      } else if (const auto bounds = inner_bounds(set.grid(), item)) {
+        delta.join(set.include(clipped(*bounds), zone_));
       }
-      const std::optional<Region> bounds = zone_bounds(set.grid());
-      if (bounds) delta.join(paint(set, item, clipped(*bounds), Brush::inner));
     });
     return delta;
+  }
+
+  // The certain zone lies within the zone of any one choice of inputs, which is easier to bound.
+  std::optional<Region> inner_bounds(const Grid& grid, std::size_t item) {
+    inputs_.load(hull_, item);
+    for (std::uint32_t i = 0; i < program_.inputs().size(); ++i) {
+      if (program_.inputs()[i].kind != Input::Kind::point) hull_.set(i, one_of(hull_.get(i)));
+    }
+    return zone_bounds(grid);
   }
 
   // S+ := S+ without what no item's zone may hold. Says nothing unless every item has a reading and a bounded zone.
@@ -99,7 +101,13 @@ class UnionContractor final : public Contractor {
     SetInterval painted(set.dim(), set.precision());
     for (std::size_t item = 0; item < inputs_.items(); ++item) {
       if (access.should_stop()) return {};
-      if (bounds[item]) paint(painted, item, *bounds[item], Brush::outer);
+      if (!bounds[item]) continue;
+      zone_.at(set.grid(), inputs_, item, Brush::outer);
+      if (auto zone = disc(set.grid(), Brush::outer)) {
+        painted.include(*bounds[item], *zone);
+      } else {
+        painted.include(*bounds[item], zone_);
+      }
     }
     return combine(set, painted, keep_painted, SetInterval::everywhere());
   }
@@ -196,9 +204,9 @@ class UnionContractor final : public Contractor {
   Program program_;
   Inputs inputs_;
   std::optional<Ring> ring_;
-  Evaluation evaluation_;             // of the zone that is being painted
-  Evaluation hull_;                   // for all else
   std::vector<std::uint32_t> point_;  // by axis of the set
+  RelationZone zone_;                 // at the item that is being painted
+  Evaluation hull_;                   // for all else
 };
 
 }  // namespace

@@ -65,9 +65,11 @@ class Evaluation {
   /// Evaluates the first `lanes` lanes: every register is an enclosure of its node on the inputs' box, and defined()
   /// tells whether the node is defined on all of it.
   void forward(std::size_t lanes = 1) { run_forward(0, program_->code().size(), lanes); }
-  /// forward() in two halves, for one lane: what the bound point does not enter, and the rest.
-  void forward_before_point() { run_forward(0, program_->point_code(), 1); }
-  void forward_from_point() { run_forward(program_->point_code(), program_->code().size(), 1); }
+  /// forward() in two halves: what the bound point does not enter, and the rest.
+  void forward_before_point(std::size_t lanes = 1) { run_forward(0, program_->point_code(), lanes); }
+  void forward_from_point(std::size_t lanes = 1) {
+    run_forward(program_->point_code(), program_->code().size(), lanes);
+  }
   [[nodiscard]] bool defined(std::uint32_t reg, std::size_t lane = 0) const { return defined_[reg * lanes_ + lane] != 0; }
 
   /// After forward: contracts the inputs to where root `i` can lie in `wanted`, the same for every lane. False when some
