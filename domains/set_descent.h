@@ -23,6 +23,15 @@ Region SetInterval::exclude(const Region& bounds, Zone& zone) {
   return decide<false>(bounds, zone);
 }
 
+template <class Visit>
+void SetInterval::for_each_upper_part(const Block& block, Visit visit) const {
+  const bool uniform = block.node == kNoNode;
+  if (uniform && !block.any_upper) return;
+  for (int corner = 0; corner < (1 << dim()); ++corner) {
+    if (uniform || (nodes_[block.node].upper & mask_of_part(block, corner)) != 0) visit(part(block, corner));
+  }
+}
+
 template <bool kInclude, class Zone>
 Region SetInterval::decide(const Region& bounds, Zone& zone) {
   Region delta;

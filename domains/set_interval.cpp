@@ -199,8 +199,8 @@ int SetInterval::part_bit(std::int64_t part, int corner) const {
   return bit;
 }
 
-SetInterval::Block SetInterval::sum_up(Block block) const {
-  if (block.node == kNoNode) return block;
+void SetInterval::sum_up(Block& block) const {
+  if (block.node == kNoNode) return;
   const Node& node = nodes_[block.node];
   block.any_upper = (node.upper & block.mask) != 0;
   block.all_lower = (node.lower & block.mask) == block.mask;
@@ -209,12 +209,11 @@ SetInterval::Block SetInterval::sum_up(Block block) const {
     if ((node.mixed & block.mask) != 0) {
       block.node = children_[node.children][static_cast<std::size_t>(__builtin_ctzll(block.mask))];
       block.mask = kAll;
-      block.child_edge /= side();
+      block.child_edge >>= axis_bits();
     } else {
       block.node = kNoNode;
     }
   }
-  return block;
 }
 
 SetInterval::Block SetInterval::root() const {
@@ -224,23 +223,25 @@ SetInterval::Block SetInterval::root() const {
   block.node = root_;
   block.mask = kAll;
   block.child_edge = root_edge() / side();
-  return sum_up(block);
+  sum_up(block);
+  return block;
 }
 
-std::array<SetInterval::Block, 8> SetInterval::parts(const Block& block) const {
-  std::array<Block, 8> parts{};
-  const std::int64_t edge = block.edge / 2;
-  for (int corner = 0; corner < (1 << dim()); ++corner) {
-    Block part = block;
-    part.edge = edge;
-    for (std::size_t axis = 0; axis < dim(); ++axis) part.lo[axis] += ((corner >> axis) & 1) * edge;
-    if (block.node != kNoNode) {
-      const std::int64_t part_children = edge / block.child_edge;
-      part.mask = part_mask(part_children, __builtin_ctzll(block.mask) + part_bit(part_children, corner));
-    }
-    parts[static_cast<std::size_t>(corner)] = sum_up(part);
-  }
-  return parts;
+std::uint64_t SetInterval::mask_of_part(const Block& block, int corner) const {
+  const int log_children = __builtin_ctzll(static_cast<std::uint64_t>(block.edge)) - 1 -
+                           __builtin_ctzll(static_cast<std::uint64_t>(block.child_edge));
+  const std::int64_t children = std::int64_t{1} << log_children;
+  return part_mask(children, __builtin_ctzll(block.mask) + part_bit(children, corner));
+}
+
+SetInterval::Block SetInterval::part(const Block& block, int corner) const {
+  Block part = block;
+  part.edge = block.edge / 2;
+  for (std::size_t axis = 0; axis < dim(); ++axis) part.lo[axis] += ((corner >> axis) & 1) * part.edge;
+  if (block.node == kNoNode) return part;
+  part.mask = mask_of_part(block, corner);
+  sum_up(part);
+  return part;
 }
 
 std::uint32_t SetInterval::new_node(Planes uniform) {

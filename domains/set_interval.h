@@ -86,8 +86,11 @@ class SetInterval {
   static constexpr std::uint32_t kNoNode = 0xffffffffU;
 
   [[nodiscard]] Block root() const;
-  /// The halves of a block along every axis, 2^dim of them, each summed up. Not for a single cell.
-  [[nodiscard]] std::array<Block, 8> parts(const Block& block) const;
+  /// Half of a block along every axis: bit k of `corner` chooses along axis k. Not for a single cell.
+  [[nodiscard]] Block part(const Block& block, int corner) const;
+  /// Calls visit(part) for the parts that meet A+.
+  template <class Visit>
+  void for_each_upper_part(const Block& block, Visit visit) const;
 
   /// Decides, block by block, which cells of `bounds` lie within every member: see set_descent.h.
   template <class Zone>
@@ -125,7 +128,8 @@ class SetInterval {
   [[nodiscard]] std::uint64_t part_mask(std::int64_t part, int bit) const;
   [[nodiscard]] CellIndex child_place(const CellIndex& origin, std::int64_t child_edge, int bit) const;
   [[nodiscard]] int part_bit(std::int64_t part, int corner) const;
-  [[nodiscard]] Block sum_up(Block block) const;
+  [[nodiscard]] std::uint64_t mask_of_part(const Block& block, int corner) const;
+  void sum_up(Block& block) const;
   void collect_runs(std::uint32_t node, std::int64_t child_edge, const CellIndex& origin, CellState state,
                     std::vector<Region>& runs) const;
   [[nodiscard]] double volume_of(const std::vector<Region>& cells, bool upward) const;

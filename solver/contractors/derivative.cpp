@@ -37,7 +37,8 @@ class DerivativeContractor final : public Contractor {
  public:
   DerivativeContractor(const std::string& name, VariableId x, std::size_t dim, Program program, Inputs inputs,
                        std::shared_ptr<const TimeLine> line)
-      : Contractor(name, name, Cost::linear, with(inputs.variables(), x), {x}), x_(x), line_(std::move(line)),
+      : Contractor(name, name, Cost::linear, with(inputs.variables(), x), {x}), x_(x),
+        f_depends_on_x_(std::count(inputs.variables().begin(), inputs.variables().end(), x) > 0), line_(std::move(line)),
         program_(std::move(program)), inputs_(std::move(inputs)), evaluation_(program_, kLanes),
         slopes_(dim, std::vector<Interval>(line_->slices())), steps_(slopes_) {}
 
@@ -58,9 +59,18 @@ class DerivativeContractor final : public Contractor {
         changes.insert(item);
         if (x.is_empty()) when = inputs_.when(item);
       };
-      sweep(x, c, moved, meet_at);
+      meet_gates_with_slices(x, c, meet_at);
+      while (!moved.is_none() && !x.is_empty()) {
+        sweep(x, c, moved, meet_at);
+        moved = {};
+        meet_gates_with_slices(x, c, meet_at);
+      }
     }
     access.report<Tube>(x_, changes, when);
+    // A second sweep forward, or back, finds nothing: a gate that was narrowed by its neighbour gives back, rounded
+    // outward, at least what the neighbour has. And the gates lie within their slices. So all is settled, unless f
+    // itself depends on x.
+    if (!f_depends_on_x_) access.settled();
   }
 
  private:
@@ -121,10 +131,6 @@ class DerivativeContractor final : public Contractor {
     const std::size_t slices = line_->slices();
     for (std::size_t k = 0; k < slices; ++k) {
       const std::size_t before = 2 * k, slice = before + 1, after = before + 2;
-      if (moved.contains(slice)) {
-        meet_at(before, x.at(c, slice));
-        meet_at(after, x.at(c, slice));
-      }
       if (moved.contains(before) || moved.contains(slice)) meet_at(after, up::add(x.at(c, before), steps_[c][k]));
     }
     for (std::size_t k = slices; k-- > 0;) {
@@ -138,7 +144,18 @@ class DerivativeContractor final : public Contractor {
     }
   }
 
+  // x is continuous: at a gate it is the limit of what it is over the slices beside it.
+  template <class MeetAt>
+  void meet_gates_with_slices(const Tube& x, std::size_t c, const MeetAt& meet_at) {
+    for (std::size_t k = 0; k < line_->slices(); ++k) {
+      const Interval slice = x.at(c, 2 * k + 1);
+      meet_at(2 * k, slice);
+      meet_at(2 * k + 2, slice);
+    }
+  }
+
   VariableId x_;
+  bool f_depends_on_x_;
   std::shared_ptr<const TimeLine> line_;
   Program program_;
   Inputs inputs_;

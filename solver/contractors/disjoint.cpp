@@ -18,6 +18,7 @@ class DisjointContractor final : public Contractor {
   void contract(Access& access) override {
     remove(access, a_, b_);
     if (!access.domain<SetInterval>(b_).is_empty()) remove(access, b_, a_);
+    access.settled();  // A- and B- do not change, and they alone decide
   }
 
  private:

@@ -102,30 +102,38 @@ class RelationFeel {
 };
 
 // norm(a - e) == r with e and r inputs: the operations of the general path, in its order, without the bytecode.
+template <std::size_t kDim>
 class RingFeel {
  public:
   RingFeel(const Ring& ring, std::array<std::size_t, 3> center, std::size_t radius)
-      : ring_(ring), center_(center), radius_(radius) {}
+      : ring_(ring), center_place_(center), radius_place_(radius) {}
 
-  void at(const Inputs&, std::size_t, const std::vector<Interval>& box) { box_ = &box; }
+  void at(const Inputs&, std::size_t, const std::vector<Interval>& box) {
+    for (std::size_t k = 0; k < kDim; ++k) center_[k] = box[center_place_[k]];
+    radius_ = box[radius_place_];
+    // Squared distances outside these bounds have roots outside the radius, by more than the rounding of a root.
+    constexpr double kMargin = 0x1p-48;
+    near_ = std::max(radius_.lo(), 0.0) * up::mul_down(std::max(radius_.lo(), 0.0), 1.0 - kMargin);
+    near_ = up::mul_down(near_, 1.0 - kMargin);
+    far_ = radius_.hi() * radius_.hi() * (1.0 + kMargin);
+  }
 
-  bool operator()(const std::array<Interval, 3>& block, Interval* result) {
-    std::array<Interval, 3> difference, square, sum;
-    const std::vector<Interval>& box = *box_;
-    for (std::size_t k = 0; k < ring_.dim; ++k) {
+  bool operator()(const std::array<Interval, 3>& block, Interval* result) const {
+    std::array<Interval, kDim> difference, square, sum;
+    for (std::size_t k = 0; k < kDim; ++k) {
       const Interval& side = block[ring_.axis[k]];
-      const Interval& center = box[center_[k]];
-      difference[k] = ring_.point_first[k] ? up::sub(side, center) : up::sub(center, side);
+      difference[k] = ring_.point_first[k] ? up::sub(side, center_[k]) : up::sub(center_[k], side);
       square[k] = up::sqr(difference[k]);
       sum[k] = k == 0 ? square[0] : up::add(sum[k - 1], square[k]);
     }
-    Interval total = sum[ring_.dim - 1];
-    const Interval radius = meet(up::sqrt(total), box[radius_]);
+    Interval total = sum[kDim - 1];
+    if (total.hi() < near_ || total.lo() > far_) return false;
+    const Interval radius = meet(up::sqrt(total), radius_);
     if (radius.is_empty()) return false;
-    result[radius_] = radius;
+    result[radius_place_] = radius;
     total = up::sqrt_rev(radius, total);
     Interval unused;
-    for (std::size_t k = ring_.dim; k-- > 0;) {
+    for (std::size_t k = kDim; k-- > 0;) {
       if (k == 0) {
         square[0] = total;
       } else {
@@ -135,26 +143,34 @@ class RingFeel {
       }
       if (total.is_empty() || square[k].is_empty()) return false;
       operators::Sqr::backward(square[k], difference[k], unused, unused);
-      Interval side = block[ring_.axis[k]], center = box[center_[k]];
+      Interval side = block[ring_.axis[k]], center = center_[k];
       if (difference[k].is_empty()) return false;
       operators::Sub::backward(difference[k], ring_.point_first[k] ? side : center, ring_.point_first[k] ? center : side,
                                unused);
       if (side.is_empty() || center.is_empty()) return false;
-      result[center_[k]] = center;
+      result[center_place_[k]] = center;
     }
     return true;
   }
 
  private:
   Ring ring_;
-  std::array<std::size_t, 3> center_;  // by term: its center's place in the box
-  std::size_t radius_;
-  const std::vector<Interval>* box_ = nullptr;
+  std::array<std::size_t, 3> center_place_;  // by term: its center's place in the box
+  std::size_t radius_place_;
+  std::array<Interval, kDim> center_;
+  Interval radius_;
+  double near_ = 0.0, far_ = kInfinity;
 };
 
 // A ring can be felt by the fast path when its center and radius are inputs themselves, all different.
-std::optional<RingFeel> ring_feel(const Dag& dag, NodeId relation, const Program& program, const Inputs& inputs,
-                                  std::size_t set_dim) {
+struct FeelableRing {
+  Ring ring;
+  std::array<std::size_t, 3> center;
+  std::size_t radius;
+};
+
+std::optional<FeelableRing> feelable_ring(const Dag& dag, NodeId relation, const Program& program, const Inputs& inputs,
+                                          std::size_t set_dim) {
   const std::optional<Ring> ring = match_ring(dag, relation);
   if (!ring || ring->relation != Op::equal || ring->dim != set_dim) return std::nullopt;
   const auto place_of = [&](NodeId node) -> std::optional<std::size_t> {
@@ -179,7 +195,7 @@ std::optional<RingFeel> ring_feel(const Dag& dag, NodeId relation, const Program
   if (std::adjacent_find(used.begin(), used.end()) != used.end() || used.size() != inputs.contractible().size()) {
     return std::nullopt;
   }
-  return RingFeel(*ring, center, *radius);
+  return FeelableRing{*ring, center, *radius};
 }
 
 }  // namespace
@@ -189,15 +205,16 @@ std::unique_ptr<Contractor> make_meets_contractor(std::string name, std::string 
                                                   const Inputs::Context& context, bool fast_paths) {
   Program program(dag, {relation});
   Inputs inputs(program, context);
+  const auto make = [&](auto feel) -> std::unique_ptr<Contractor> {
+    return std::make_unique<MeetsContractor<decltype(feel)>>(std::move(name), std::move(constraint), set,
+                                                             std::move(inputs), std::move(feel));
+  };
   if (fast_paths) {
-    if (auto ring = ring_feel(dag, relation, program, inputs, set_dim)) {
-      return std::make_unique<MeetsContractor<RingFeel>>(std::move(name), std::move(constraint), set, std::move(inputs),
-                                                         *ring);
-    }
+    const auto fast = feelable_ring(dag, relation, program, inputs, set_dim);
+    if (fast && set_dim == 2) return make(RingFeel<2>(fast->ring, fast->center, fast->radius));
+    if (fast && set_dim == 3) return make(RingFeel<3>(fast->ring, fast->center, fast->radius));
   }
-  RelationFeel feel(std::move(program), inputs, set_dim);
-  return std::make_unique<MeetsContractor<RelationFeel>>(std::move(name), std::move(constraint), set,
-                                                         std::move(inputs), std::move(feel));
+  return make(RelationFeel(std::move(program), inputs, set_dim));
 }
 
 }  // namespace hcsp

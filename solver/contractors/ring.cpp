@@ -115,32 +115,45 @@ Decision DiscZone::decide(const CellIndex& lo, std::int64_t edge) const {
   return brush_ == Brush::outer && edge == 1 ? Decision::all : Decision::split;
 }
 
-std::uint64_t DiscZone::decide_tile(const CellIndex& lo) const {
-  const bool inner = brush_ == Brush::inner;
-  if (inner && too_far(lo, ring_.dim == 2 ? 8 : 4)) return 0;
-  const double limit = inner ? all_up_to_ : none_from_;
-  const std::size_t side = ring_.dim == 2 ? 8 : 4;
-  // By term of the sum, the bound of the squared distance at each of the tile's columns along that term's axis.
-  std::array<std::array<double, 8>, 3> bound{};
-  for (std::size_t k = 0; k < ring_.dim; ++k) {
-    CellIndex cell = lo;
-    for (std::size_t i = 0; i < side; ++i, ++cell[ring_.axis[k]]) {
-      const Interval square = squared(k, cell, 1);
-      bound[k][i] = inner ? square.hi() : -square.lo();  // lower bounds negated: upward sums round them down
+// The bound that decides at the tile's columns along one term's axis: of the farthest squared distance for the inner
+// brush, of the nearest for the outer, negated so that upward sums round it down.
+void DiscZone::column_bounds(std::size_t k, const CellIndex& lo, std::size_t side, double* bound) const {
+  std::array<double, 9> line{};
+  for (std::size_t i = 0; i <= side; ++i) line[i] = grid_.line(lo[ring_.axis[k]] + static_cast<std::int64_t>(i));
+  const double low = center_[k].lo(), high = center_[k].hi();
+  if (brush_ == Brush::inner) {
+    for (std::size_t i = 0; i < side; ++i) {
+      const double farthest = std::max(line[i + 1] - low, high - line[i]);
+      bound[i] = farthest * farthest;
+    }
+  } else {
+    for (std::size_t i = 0; i < side; ++i) {
+      const double nearest = std::max({up::sub_down(line[i], high), up::sub_down(low, line[i + 1]), 0.0});
+      bound[i] = -nearest * nearest;
     }
   }
-  std::uint64_t cells = 0;
+}
+
+std::uint64_t DiscZone::decide_tile(const CellIndex& lo) const {
+  const bool inner = brush_ == Brush::inner;
+  const std::size_t side = ring_.dim == 2 ? 8 : 4;
   const int bits = ring_.dim == 2 ? 3 : 2;
+  if (inner && too_far(lo, static_cast<std::int64_t>(side))) return 0;
+  // By axis, so that a row of the tile is contiguous in bits; addition commutes, so the sum's order does not matter in
+  // the plane, and in space it is that of the terms.
+  std::array<std::array<double, 8>, 3> bound{};
+  for (std::size_t k = 0; k < ring_.dim; ++k) column_bounds(k, lo, side, bound[k].data());
+  const double limit = inner ? all_up_to_ : std::nextafter(none_from_, 0.0);
   std::array<int, 3> shift{};
   for (std::size_t k = 0; k < ring_.dim; ++k) shift[k] = bits * static_cast<int>(ring_.axis[k]);
-  const std::size_t layers = ring_.dim == 2 ? 1 : side;
-  for (std::size_t h = 0; h < layers; ++h) {
+  std::uint64_t cells = 0;
+  for (std::size_t h = 0; h < (ring_.dim == 2 ? 1 : side); ++h) {
+    const double third = ring_.dim == 2 ? 0.0 : bound[2][h];
     for (std::size_t j = 0; j < side; ++j) {
       for (std::size_t i = 0; i < side; ++i) {
-        double sum = bound[0][i] + bound[1][j];
-        if (ring_.dim == 3) sum += bound[2][h];
-        const bool in = inner ? sum <= limit : -sum < limit;
-        cells |= static_cast<std::uint64_t>(in) << ((i << shift[0]) + (j << shift[1]) + (ring_.dim == 3 ? h << shift[2] : 0));
+        const double sum = (bound[0][i] + bound[1][j]) + third;
+        const bool in = inner ? sum <= limit : -sum <= limit;
+        cells |= static_cast<std::uint64_t>(in) << ((i << shift[0]) + (j << shift[1]) + (h << shift[2]));
       }
     }
   }

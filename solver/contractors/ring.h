@@ -41,6 +41,7 @@ class DiscZone {
     return up::sqr(ring_.point_first[k] ? up::sub(side, center_[k]) : up::sub(center_[k], side));
   }
 
+  void column_bounds(std::size_t k, const CellIndex& lo, std::size_t side, double* bound) const;
   [[nodiscard]] bool too_far(const CellIndex& lo, std::int64_t edge) const;
 
   const Grid& grid_;

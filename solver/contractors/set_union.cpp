@@ -47,6 +47,7 @@ class UnionContractor final : public Contractor {
     }
     access.report<SetInterval>(set_, delta);
     inputs_.report(access);
+    if (set.is_empty() || !set.has_outside()) access.settled();  // the inputs did not move, and they alone decide
   }
 
  private:
@@ -170,9 +171,8 @@ class UnionContractor final : public Contractor {
       if (!may_hold(set, block, item)) return true;
     }
     if (block.edge == 1) return true;
-    const auto parts = set.parts(block);
-    for (std::size_t i = 0; i < (std::size_t{1} << set.dim()); ++i) {
-      if (!leave_out_of(set, parts[i], item)) return false;
+    for (int corner = 0; corner < (1 << set.dim()); ++corner) {
+      if (!leave_out_of(set, set.part(block, corner), item)) return false;
     }
     return true;
   }

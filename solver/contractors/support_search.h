@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "domains/set_interval.h"
+#include "domains/set_descent.h"
 
 namespace hcsp {
 
@@ -125,17 +125,17 @@ class SupportSearch {
                Interval* free, CellIndex* witnesses) {
     if (!widens(support)) return;
     if (block.edge == 1) return widen(support, block.lo, witnesses);
-    const std::array<SetInterval::Block, 8> parts = set.parts(block);
-    const std::size_t count = std::size_t{1} << set.dim();
-    std::array<double, 8> reaches{};  // negative: nothing there, or done
-    reaches.fill(-1.0);
-    for (std::size_t i = 0; i < count; ++i) {
-      Interval* of_part = free + i * dim_;
-      if (parts[i].any_upper && feel(box_of(set, parts[i]), of_part) && widens(of_part)) reaches[i] = reach(of_part);
-    }
-    for (;;) {  // the part that reaches furthest first
-      const auto best = std::max_element(reaches.begin(), reaches.end());
-      if (*best < 0) return;
+    std::array<SetInterval::Block, 8> parts;
+    std::array<double, 8> reaches{};  // negative: done
+    std::size_t count = 0;
+    set.for_each_upper_part(block, [&](const SetInterval::Block& part) {
+      Interval* of_part = free + count * dim_;
+      if (!feel(box_of(set, part), of_part) || !widens(of_part)) return;
+      reaches[count] = reach(of_part);
+      parts[count++] = part;
+    });
+    for (std::size_t left = count; left > 0; --left) {  // the part that reaches furthest first
+      const auto best = std::max_element(reaches.begin(), reaches.begin() + static_cast<std::ptrdiff_t>(count));
       *best = -1.0;
       const auto i = static_cast<std::size_t>(best - reaches.begin());
       explore(set, feel, parts[i], free + i * dim_, free + count * dim_, witnesses);

@@ -33,7 +33,7 @@ class Contractor {
 
   /// Contracts the domains of writes() with regard to those of reads(). `access` tells what changed in each since the
   /// last run (everything, the first time) and takes the Deltas that this run caused, after which the contractor is
-  /// woken by what others do, and by its own changes too. Must be inclusion-isotone: smaller domains never give a
+  /// woken by what others do, and by its own changes too unless it says access.settled(). Must be inclusion-isotone: smaller domains never give a
   /// larger result. A domain found empty is told by access.fail().
   virtual void contract(Access& access) = 0;
 

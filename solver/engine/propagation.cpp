@@ -15,6 +15,8 @@ void Access::fail(VariableId variable, std::optional<std::array<double, 2>> time
   if (!run_.failure_) run_.failure_ = Failure{contractor_, variable, time};
 }
 
+void Access::settled() { settled_ = true; }
+
 bool Access::should_stop() const { return run_.failure_.has_value() || run_.out_of_limits(); }
 unsigned Access::threads() const { return run_.options_.threads; }
 
@@ -31,6 +33,7 @@ Propagation::Propagation(const ContractorGraph& graph, PropagationOptions option
     const auto& readers = graph.variable(v).readers();
     for (std::size_t place = 0; place < readers.size(); ++place) access_[readers[place]].places_[v] = place;
   }
+  for (const auto& contractor : graph.contractors()) dearest_ = std::max(dearest_, contractor->cost());
   if (options_.order == Order::reversed) std::reverse(schedule_.begin(), schedule_.end());
   if (options_.order == Order::shuffled) {
     std::mt19937_64 random(options_.seed);
@@ -55,17 +58,22 @@ bool Propagation::out_of_limits() const {
 void Propagation::run_contractor(ContractorId id, Observer* observer) {
   Contractor& contractor = *graph_.contractors()[id];
   awake_[id] = false;
-  ran_this_pass_[id] = true;
+  ran_this_pass_[id] = contractor.cost() == dearest_;
   for (const VariableId v : contractor.reads()) slots_[v]->hand_over(access_[id].places_[v]);
   if (observer != nullptr) observer->before_contractor(*this, id);
   const double before = options_.clock();
+  access_[id].settled_ = false;
   contractor.contract(access_[id]);
+  if (access_[id].settled_) {
+    awake_[id] = false;
+    for (const VariableId v : contractor.reads()) slots_[v]->drop(access_[id].places_[v]);
+  }
   counts_[id].seconds += options_.clock() - before;
   ++counts_[id].calls;
   if (observer != nullptr) observer->after_contractor(*this, id);
 }
 
-// Ends a pass: no contractor runs twice in one. True when the threshold says that this was the last.
+// Ends a pass: none of the dearest contractors runs twice in one. True when the threshold says that this was the last.
 bool Propagation::end_pass(Observer* observer) {
   std::fill(ran_this_pass_.begin(), ran_this_pass_.end(), false);
   if (observer != nullptr) observer->after_pass(*this);

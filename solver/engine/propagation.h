@@ -64,6 +64,8 @@ class Access {
   /// for a variable that has a time.
   template <Lattice D>
   void report(VariableId id, const typename D::Delta& change, std::optional<std::array<double, 2>> time = {});
+  /// Tells that another run right away would change nothing: the contractor's own changes then do not wake it.
+  void settled();
   /// The constraint has no solution within the domains; `variable` is the one to blame.
   void fail(VariableId variable, std::optional<std::array<double, 2>> time = {});
   /// True when a limit was reached: a long contraction may return early, for the run is going to end.
@@ -75,6 +77,7 @@ class Access {
   Access(Propagation& run, ContractorId contractor) : run_(run), contractor_(contractor) {}
   Propagation& run_;
   ContractorId contractor_;
+  bool settled_ = false;
   std::vector<std::size_t> places_;  // of this contractor among the readers of each variable that it reads
 };
 
@@ -134,7 +137,8 @@ class Propagation {
   std::vector<Access> access_;          // by contractor
   std::vector<ContractorId> schedule_;  // all contractors, in the order in which awake ones run
   std::vector<bool> awake_;
-  std::vector<bool> ran_this_pass_;
+  std::vector<bool> ran_this_pass_;     // of the dearest contractors
+  Cost dearest_ = Cost::constant;       // of the graph's contractors
   std::vector<double> open_;  // the variables' measures at the last pass's end, when there is a threshold
   std::vector<ContractorCount> counts_;
   std::optional<Failure> failure_;

@@ -21,6 +21,8 @@ class Slot {
   virtual void wake_all(std::size_t readers) = 0;
   /// A reader is about to run: what came in since its last run is what it is shown.
   virtual void hand_over(std::size_t reader) = 0;
+  /// Forgets what came in for a reader.
+  virtual void drop(std::size_t reader) = 0;
 };
 
 template <Lattice D>
@@ -42,6 +44,7 @@ class TypedSlot : public Slot {
     pending[reader] = std::move(incoming[reader]);
     incoming[reader] = {};
   }
+  void drop(std::size_t reader) override { incoming[reader] = {}; }
 
   D domain;
   // By reader: the changes since its last run, and those that the run at hand is shown. Two, because a contractor may

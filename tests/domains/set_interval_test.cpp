@@ -160,12 +160,12 @@ TEST(SetInterval, PartsOfBlocksSumUpTheirCells) {
       ++cells;
       continue;
     }
-    const auto parts = set.parts(block);
     bool any_upper = false, all_lower = true;
     for (int i = 0; i < 4; ++i) {
-      any_upper = any_upper || parts[static_cast<std::size_t>(i)].any_upper;
-      all_lower = all_lower && parts[static_cast<std::size_t>(i)].all_lower;
-      stack.push_back(parts[static_cast<std::size_t>(i)]);
+      const SetInterval::Block part = set.part(block, i);
+      any_upper = any_upper || part.any_upper;
+      all_lower = all_lower && part.all_lower;
+      stack.push_back(part);
     }
     EXPECT_EQ(block.any_upper, any_upper);
     EXPECT_EQ(block.all_lower, all_lower);
