@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// How a contractor decides a set interval: it hands a Zone, which looks at a cubic block of cells and says that all of
-// it, none of it, or neither is to be settled; undecided blocks are split down to the cell. Blocks that are settled
-// already are not asked for. A Zone has
-//   Decision decide(const CellIndex& lo, std::int64_t edge);
-// and may have, to decide the 64 cells of a tile at once (bit x + side y + side^2 z),
-//   std::uint64_t decide_tile(const CellIndex& lo);
+// How a contractor decides a set interval: it hands a Zone, which looks at a box of cells and says that all of them, none
+// of them, or neither are to be settled; undecided blocks are split down to the cell. The boxes are those around the
+// cells that are still open, so what is settled already costs nothing. A Zone has
+//   Decision decide(const Region& cells);
+// and may have, to decide the 64 children of a node at once, each a cube of child_edge cells,
+//   ChildDecisions decide_children(const CellIndex& origin, std::int64_t child_edge);
 #pragma once
 
 #include "domains/set_interval.h"
@@ -12,6 +12,12 @@
 namespace hcsp {
 
 enum class Decision : std::uint8_t { none, all, split };
+
+/// Which children of a node are to be settled whole, and which may hold cells to settle (bit x + side y + side^2 z).
+struct ChildDecisions {
+  std::uint64_t all = 0;
+  std::uint64_t some = 0;
+};
 
 template <class Zone>
 Region SetInterval::include(const Region& bounds, Zone& zone) {
@@ -37,51 +43,56 @@ Region SetInterval::decide(const Region& bounds, Zone& zone) {
   Region delta;
   if (empty_ || !bounds.has_cells()) return delta;
   cover(bounds);
-  descend<kInclude>(root_, root_edge() / side(), root_origin(), side(), 0, bounds, zone, delta);
+  descend_node<kInclude>(root_, root_edge() >> axis_bits(), root_origin(), bounds, zone, delta);
   return delta;
+}
+
+// A node whole: child by child where the zone can, or by halves.
+template <bool kInclude, class Zone>
+void SetInterval::descend_node(std::uint32_t node, std::int64_t child_edge, const CellIndex& origin,
+                               const Region& bounds, Zone& zone, Region& delta) {
+  if constexpr (requires { zone.decide_children(origin, child_edge); }) {
+    const std::uint64_t open = kInclude ? ~nodes_[node].lower : nodes_[node].upper;
+    const ChildDecisions decisions = zone.decide_children(origin, child_edge);
+    if (const std::uint64_t all = decisions.all & open; all != 0) {
+      settle<kInclude>(node, all);
+      delta.join(bounds_of(all, origin, child_edge));
+    }
+    if (child_edge == 1) return;
+    for (std::uint64_t rest = decisions.some & open & ~decisions.all; rest != 0 && !empty_; rest &= rest - 1) {
+      const int bit = __builtin_ctzll(rest);
+      const CellIndex lo = child_place(origin, child_edge, bit);
+      descend_node<kInclude>(child(node, bit), child_edge >> axis_bits(), lo, bounds, zone, delta);
+      refresh(node, bit);
+    }
+  } else {
+    descend<kInclude>(node, child_edge, origin, side(), 0, bounds, zone, delta);
+  }
 }
 
 template <bool kInclude, class Zone>
 void SetInterval::descend(std::uint32_t node, std::int64_t child_edge, const CellIndex& origin, std::int64_t part,
                           int bit, const Region& bounds, Zone& zone, Region& delta) {
   const std::uint64_t mask = part_mask(part, bit);
-  const bool settled = kInclude ? (nodes_[node].lower & mask) == mask : (nodes_[node].upper & mask) == 0;
-  if (settled || empty_) return;
-  const CellIndex lo = child_place(origin, child_edge, bit);
-  const std::int64_t edge = part * child_edge;
-  if (!bounds.meets(lo, edge, dim())) return;
-  if constexpr (requires { zone.decide_tile(lo); }) {
-    if (child_edge == 1 && part == side()) {
-      const std::uint64_t cells = zone.decide_tile(lo) & (kInclude ? ~nodes_[node].lower : nodes_[node].upper);
-      if (cells != 0) {
-        settle<kInclude>(node, cells);
-        delta.join(Region::block(lo, edge, dim()));
-      }
-      return;
-    }
-  }
-  const Decision decision = zone.decide(lo, edge);
+  const std::uint64_t open = mask & (kInclude ? ~nodes_[node].lower : nodes_[node].upper);
+  if (open == 0 || empty_) return;
+  const Region cells = bounds_of(open, origin, child_edge);
+  if (!bounds.meets(cells, dim())) return;
+  const Decision decision = zone.decide(cells);
   if (decision == Decision::none) return;
   if (decision == Decision::all) {
-    settle<kInclude>(node, mask);
-    delta.join(Region::block(lo, edge, dim()));
-  } else if (part > 1) {
-    descend_parts<kInclude>(node, child_edge, origin, part, bit, bounds, zone, delta);
+    settle<kInclude>(node, open);
+    delta.join(cells);
+    return;
+  }
+  if (part > 1) {
+    for (int corner = 0; corner < (1 << dim()); ++corner) {
+      descend<kInclude>(node, child_edge, origin, part / 2, bit + part_bit(part / 2, corner), bounds, zone, delta);
+    }
   } else if (child_edge > 1) {
-    descend_parts<kInclude>(child(node, bit), child_edge / side(), lo, side(), 0, bounds, zone, delta);
+    const CellIndex lo = child_place(origin, child_edge, bit);
+    descend_node<kInclude>(child(node, bit), child_edge >> axis_bits(), lo, bounds, zone, delta);
     refresh(node, bit);
-  }
-}
-
-template <bool kInclude, class Zone>
-void SetInterval::descend_parts(std::uint32_t node, std::int64_t child_edge, const CellIndex& origin, std::int64_t part,
-                                int bit, const Region& bounds, Zone& zone, Region& delta) {
-  // The tile decision replaces the halves of a tile, so a tile that is reached through its parent goes in whole.
-  if constexpr (requires { zone.decide_tile(origin); }) {
-    if (child_edge == 1 && part == side()) return descend<kInclude>(node, 1, origin, part, bit, bounds, zone, delta);
-  }
-  for (int corner = 0; corner < (1 << dim()); ++corner) {
-    descend<kInclude>(node, child_edge, origin, part / 2, bit + part_bit(part / 2, corner), bounds, zone, delta);
   }
 }
 

@@ -67,11 +67,11 @@ Region touched_cells(const Grid& grid, const Box& frame) {
 struct OutsideOf {
   const Region& region;
   std::size_t dim;
-  Decision decide(const CellIndex& lo, std::int64_t edge) const {
+  Decision decide(const Region& cells) const {
     bool within = true;
     for (std::size_t axis = 0; axis < dim; ++axis) {
-      if (lo[axis] >= region.hi[axis] || lo[axis] + edge <= region.lo[axis]) return Decision::all;
-      within = within && lo[axis] >= region.lo[axis] && lo[axis] + edge <= region.hi[axis];
+      if (cells.lo[axis] >= region.hi[axis] || cells.hi[axis] <= region.lo[axis]) return Decision::all;
+      within = within && cells.lo[axis] >= region.lo[axis] && cells.hi[axis] <= region.hi[axis];
     }
     return within ? Decision::none : Decision::split;
   }
@@ -93,9 +93,9 @@ void Region::join(const Region& other) {
   }
 }
 
-bool Region::meets(const CellIndex& block_lo, std::int64_t edge, std::size_t dim) const {
+bool Region::meets(const Region& other, std::size_t dim) const {
   for (std::size_t axis = 0; axis < dim; ++axis) {
-    if (block_lo[axis] >= hi[axis] || block_lo[axis] + edge <= lo[axis]) return false;
+    if (other.lo[axis] >= hi[axis] || other.hi[axis] <= lo[axis]) return false;
   }
   return true;
 }
@@ -132,7 +132,7 @@ CellState SetInterval::at(const double* point) const {
 }
 
 CellState SetInterval::at_cell(const CellIndex& cell) const {
-  if (!reach().meets(cell, 1, dim())) return background();
+  if (!reach().meets(Region::block(cell, 1, dim()), dim())) return background();
   const CellIndex origin = root_origin();
   std::uint32_t node = root_;
   for (int shift = axis_bits() * (levels_ - 1);; shift -= axis_bits()) {
@@ -214,6 +214,47 @@ void SetInterval::sum_up(Block& block) const {
       block.node = kNoNode;
     }
   }
+}
+
+// The box around some children of a node: layer by layer along the last axis, then all layers folded into one.
+Region SetInterval::bounds_of(std::uint64_t children, const CellIndex& origin, std::int64_t child_edge) const {
+  Region region;
+  const auto bound = [&](std::size_t axis, std::uint64_t bits, int layer) {
+    region.lo[axis] = origin[axis] + (__builtin_ctzll(bits) >> layer) * child_edge;
+    region.hi[axis] = origin[axis] + (((63 - __builtin_clzll(bits)) >> layer) + 1) * child_edge;
+  };
+  switch (dim()) {
+    case 1: bound(0, children, 0); break;
+    case 2:
+      bound(1, children, 3);
+      children |= children >> 32;
+      children |= children >> 16;
+      bound(0, (children | children >> 8) & 0xff, 0);
+      break;
+    default:
+      bound(2, children, 4);
+      children |= children >> 32;
+      children = (children | children >> 16) & 0xffff;
+      bound(1, children, 2);
+      children |= children >> 8;
+      bound(0, (children | children >> 4) & 0xf, 0);
+      break;
+  }
+  return region;
+}
+
+Region SetInterval::upper_bounds(const Block& block) const {
+  if (block.node == kNoNode) return Region::block(block.lo, block.edge, dim());
+  const CellIndex origin = node_origin(block);
+  return bounds_of(nodes_[block.node].upper & block.mask, origin, block.child_edge);
+}
+
+// Where the node that holds a block begins.
+CellIndex SetInterval::node_origin(const Block& block) const {
+  const CellIndex first = child_place({}, block.child_edge, __builtin_ctzll(block.mask));
+  CellIndex origin = block.lo;
+  for (std::size_t axis = 0; axis < dim(); ++axis) origin[axis] -= first[axis];
+  return origin;
 }
 
 SetInterval::Block SetInterval::root() const {
@@ -374,7 +415,7 @@ void SetInterval::combine_node(std::uint32_t node, const View& source, std::int6
   for (std::uint64_t rest = mixed; rest != 0; rest &= rest - 1) {
     const int bit = __builtin_ctzll(rest);
     const CellIndex lo = child_place(origin, child_edge, bit);
-    if (!where.meets(lo, child_edge, dim())) continue;
+    if (!where.meets(Region::block(lo, child_edge, dim()), dim())) continue;
     combine_node(child(node, bit), source.child(bit), child_edge / side(), lo, op, where, delta);
     refresh(node, bit);
   }

@@ -34,7 +34,7 @@ struct Region {
   [[nodiscard]] bool has_cells() const { return lo[0] < hi[0]; }
   [[nodiscard]] bool is_none() const { return !has_cells() && !beyond; }
   void join(const Region& other);
-  [[nodiscard]] bool meets(const CellIndex& block_lo, std::int64_t edge, std::size_t dim) const;
+  [[nodiscard]] bool meets(const Region& other, std::size_t dim) const;
   /// The cubic block of edge^dim cells from lo.
   [[nodiscard]] static Region block(const CellIndex& lo, std::int64_t edge, std::size_t dim);
 };
@@ -72,7 +72,7 @@ class SetInterval {
 
   // The tree, for contractors that descend it.
 
-  /// A cubic block of cells: the root, or a part of one. `upper` and `all_lower` sum its cells up.
+  /// A cubic block of cells: the root, or a part of one, and a summary of its cells.
   struct Block {
     CellIndex lo{};          ///< its first cell
     std::int64_t edge = 0;   ///< cells along an edge, a power of two
@@ -91,6 +91,8 @@ class SetInterval {
   /// Calls visit(part) for the parts that meet A+.
   template <class Visit>
   void for_each_upper_part(const Block& block, Visit visit) const;
+  /// A box of cells within the block that has all its cells of A+. PRECONDITION: block.any_upper.
+  [[nodiscard]] Region upper_bounds(const Block& block) const;
 
   /// Decides, block by block, which cells of `bounds` lie within every member: see set_descent.h.
   template <class Zone>
@@ -128,8 +130,10 @@ class SetInterval {
   [[nodiscard]] std::uint64_t part_mask(std::int64_t part, int bit) const;
   [[nodiscard]] CellIndex child_place(const CellIndex& origin, std::int64_t child_edge, int bit) const;
   [[nodiscard]] int part_bit(std::int64_t part, int corner) const;
+  [[nodiscard]] Region bounds_of(std::uint64_t children, const CellIndex& origin, std::int64_t child_edge) const;
   [[nodiscard]] std::uint64_t mask_of_part(const Block& block, int corner) const;
   void sum_up(Block& block) const;
+  [[nodiscard]] CellIndex node_origin(const Block& block) const;
   void collect_runs(std::uint32_t node, std::int64_t child_edge, const CellIndex& origin, CellState state,
                     std::vector<Region>& runs) const;
   [[nodiscard]] double volume_of(const std::vector<Region>& cells, bool upward) const;
@@ -148,8 +152,8 @@ class SetInterval {
   void descend(std::uint32_t node, std::int64_t child_edge, const CellIndex& origin, std::int64_t part, int bit,
                const Region& bounds, Zone& zone, Region& delta);
   template <bool kInclude, class Zone>
-  void descend_parts(std::uint32_t node, std::int64_t child_edge, const CellIndex& origin, std::int64_t part, int bit,
-                     const Region& bounds, Zone& zone, Region& delta);
+  void descend_node(std::uint32_t node, std::int64_t child_edge, const CellIndex& origin, const Region& bounds,
+                    Zone& zone, Region& delta);
   template <bool kInclude, class Zone>
   Region decide(const Region& bounds, Zone& zone);
   template <bool kInclude>

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "solver/contractors/ring.h"
 
+#include "domains/lanes.h"
+
 namespace hcsp {
 
 namespace {
@@ -92,12 +94,12 @@ Region DiscZone::inner_bounds() const {
   return region;
 }
 
-// Whether no cell of a block lies in the discs of all centers: even the point of the block that is nearest to its
+// Whether none of the cells lies in the discs of all centers: even the point of their box that is nearest to its
 // farthest center is too far. Along an axis, with centers [l, h], the farthest is max(a - l, h - a) away from a.
-bool DiscZone::too_far(const CellIndex& lo, std::int64_t edge) const {
+bool DiscZone::too_far(const Region& cells) const {
   double minus_sum = 0.0;  // negated: upward rounding makes it a lower bound
   for (std::size_t k = 0; k < ring_.dim; ++k) {
-    const Interval side = block_side(grid_, lo, edge, ring_.axis[k]);
+    const Interval side = closure(grid_, cells, ring_.axis[k]);
     const double low = center_[k].lo(), high = center_[k].hi();
     const double spread = -0.5 * (low - high);
     const double farthest = std::max({up::sub_down(side.lo(), low), up::sub_down(high, side.hi()), up::next_down(spread)});
@@ -106,58 +108,86 @@ bool DiscZone::too_far(const CellIndex& lo, std::int64_t edge) const {
   return -minus_sum > all_up_to_;
 }
 
-Decision DiscZone::decide(const CellIndex& lo, std::int64_t edge) const {
-  if (brush_ == Brush::inner && too_far(lo, edge)) return Decision::none;
-  Interval sum = squared(0, lo, edge);
-  for (std::size_t k = 1; k < ring_.dim; ++k) sum = up::add(sum, squared(k, lo, edge));
+Decision DiscZone::decide(const Region& cells) const {
+  if (brush_ == Brush::inner && too_far(cells)) return Decision::none;
+  Interval sum(0.0);
+  for (std::size_t k = 0; k < ring_.dim; ++k) {
+    sum = up::add(sum, up::sqr(up::sub(closure(grid_, cells, ring_.axis[k]), center_[k])));
+  }
   if (sum.hi() <= all_up_to_) return Decision::all;
   if (sum.lo() >= none_from_) return Decision::none;
-  return brush_ == Brush::outer && edge == 1 ? Decision::all : Decision::split;
+  return brush_ == Brush::outer && is_one_cell(cells, ring_.dim) ? Decision::all : Decision::split;
 }
 
-// The bound that decides at the tile's columns along one term's axis: of the farthest squared distance for the inner
-// brush, of the nearest for the outer, negated so that upward sums round it down.
-void DiscZone::column_bounds(std::size_t k, const CellIndex& lo, std::size_t side, double* bound) const {
-  std::array<double, 9> line{};
-  for (std::size_t i = 0; i <= side; ++i) line[i] = grid_.line(lo[ring_.axis[k]] + static_cast<std::int64_t>(i));
-  const double low = center_[k].lo(), high = center_[k].hi();
-  if (brush_ == Brush::inner) {
-    for (std::size_t i = 0; i < side; ++i) {
-      const double farthest = std::max(line[i + 1] - low, high - line[i]);
-      bound[i] = farthest * farthest;
-    }
-  } else {
-    for (std::size_t i = 0; i < side; ++i) {
-      const double nearest = std::max({up::sub_down(line[i], high), up::sub_down(low, line[i + 1]), 0.0});
-      bound[i] = -nearest * nearest;
-    }
-  }
-}
+// Along one term's axis, for each layer of children: the greatest squared distance of its points from the centers, and
+// the least one that matters (too_far's for the inner brush, the nearest for the outer), which is negated so that upward
+// sums round it down.
+struct DiscZone::Bounds {
+  std::array<double, 8> greatest{};
+  std::array<double, 8> minus_least{};
+};
 
-std::uint64_t DiscZone::decide_tile(const CellIndex& lo) const {
-  const bool inner = brush_ == Brush::inner;
+void DiscZone::bound_children(std::size_t k, const CellIndex& origin, std::int64_t child_edge, Bounds& bounds) const {
   const std::size_t side = ring_.dim == 2 ? 8 : 4;
-  const int bits = ring_.dim == 2 ? 3 : 2;
-  if (inner && too_far(lo, static_cast<std::int64_t>(side))) return 0;
-  // By axis, so that a row of the tile is contiguous in bits; addition commutes, so the sum's order does not matter in
-  // the plane, and in space it is that of the terms.
-  std::array<std::array<double, 8>, 3> bound{};
-  for (std::size_t k = 0; k < ring_.dim; ++k) column_bounds(k, lo, side, bound[k].data());
-  const double limit = inner ? all_up_to_ : std::nextafter(none_from_, 0.0);
-  std::array<int, 3> shift{};
-  for (std::size_t k = 0; k < ring_.dim; ++k) shift[k] = bits * static_cast<int>(ring_.axis[k]);
-  std::uint64_t cells = 0;
-  for (std::size_t h = 0; h < (ring_.dim == 2 ? 1 : side); ++h) {
-    const double third = ring_.dim == 2 ? 0.0 : bound[2][h];
-    for (std::size_t j = 0; j < side; ++j) {
-      for (std::size_t i = 0; i < side; ++i) {
-        const double sum = (bound[0][i] + bound[1][j]) + third;
-        const bool in = inner ? sum <= limit : -sum <= limit;
-        cells |= static_cast<std::uint64_t>(in) << ((i << shift[0]) + (j << shift[1]) + (h << shift[2]));
-      }
-    }
+  std::array<double, 9> line{};
+  for (std::size_t i = 0; i <= side; ++i) {
+    line[i] = grid_.line(origin[ring_.axis[k]] + static_cast<std::int64_t>(i) * child_edge);
   }
-  return cells;
+  const double low = center_[k].lo(), high = center_[k].hi();
+  const bool inner = brush_ == Brush::inner;
+  const double spread = inner ? std::max(up::next_down(-0.5 * (low - high)), 0.0) : 0.0;
+  for (std::size_t i = 0; i < side; ++i) {
+    const double greatest = std::max(line[i + 1] - low, high - line[i]);
+    bounds.greatest[i] = greatest * greatest;
+    const double from_low = -(low - line[i]), from_high = -(line[i + 1] - high);
+    const double nearest_low = -(high - line[i]), nearest_high = -(line[i + 1] - low);
+    const double least = std::max(inner ? std::max(from_low, from_high) : std::max(nearest_low, nearest_high), spread);
+    bounds.minus_least[i] = -least * least;
+  }
+}
+
+ChildDecisions DiscZone::decide_children(const CellIndex& origin, std::int64_t child_edge) const {
+  std::array<Bounds, 3> bounds;
+  for (std::size_t k = 0; k < ring_.dim; ++k) bound_children(k, origin, child_edge, bounds[k]);
+  const bool cells = child_edge == 1;
+  const bool inner = brush_ == Brush::inner;
+  const bool least_matters = !(cells && inner);
+  // A child may hold cells to settle when its least squared distance is at most this.
+  const double some_up_to = inner ? all_up_to_ : (none_from_ < kInfinity ? up::next_down(none_from_) : kInfinity);
+  ChildDecisions decisions = ring_.dim == 2 ? decide_plane(bounds, some_up_to, least_matters)
+                                            : decide_space(bounds, some_up_to, least_matters);
+  if (cells) decisions.all |= decisions.some;  // with the outer brush, a cell that may hold a point is painted
+  return decisions;
+}
+
+// Eight rows of eight. Two terms add up to the same in either order.
+ChildDecisions DiscZone::decide_plane(const std::array<Bounds, 3>& bounds, double some_up_to, bool least_matters) const {
+  const Bounds& along = bounds[ring_.axis[0] == 0 ? 0 : 1];
+  const Bounds& across = bounds[ring_.axis[0] == 0 ? 1 : 0];
+  ChildDecisions decisions;
+  for (std::size_t j = 0; j < 8; ++j) {
+    decisions.all |= sums_at_most(along.greatest.data(), across.greatest[j], all_up_to_) << (8 * j);
+  }
+  for (std::size_t j = 0; j < 8 && least_matters; ++j) {
+    // sum <= limit, both negated, is -sum >= -limit: all but those with -sum <= the double below -limit.
+    const double below = up::next_down(-some_up_to);
+    decisions.some |= (~sums_at_most(along.minus_least.data(), across.minus_least[j], below) & 0xff) << (8 * j);
+  }
+  return decisions;
+}
+
+// Four layers of four rows of four, summed in the order of the terms, as the general path adds them.
+ChildDecisions DiscZone::decide_space(const std::array<Bounds, 3>& bounds, double some_up_to, bool least_matters) const {
+  ChildDecisions decisions;
+  for (std::size_t place = 0; place < 64; ++place) {
+    const std::size_t i = place % 4, j = place / 4 % 4, h = place / 16;
+    const std::size_t bit = (i << (2 * ring_.axis[0])) + (j << (2 * ring_.axis[1])) + (h << (2 * ring_.axis[2]));
+    const double greatest = (bounds[0].greatest[i] + bounds[1].greatest[j]) + bounds[2].greatest[h];
+    const double minus_least = (bounds[0].minus_least[i] + bounds[1].minus_least[j]) + bounds[2].minus_least[h];
+    decisions.all |= static_cast<std::uint64_t>(greatest <= all_up_to_) << bit;
+    decisions.some |= static_cast<std::uint64_t>(least_matters && -minus_least <= some_up_to) << bit;
+  }
+  return decisions;
 }
 
 }  // namespace hcsp

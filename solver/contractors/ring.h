@@ -32,17 +32,17 @@ class DiscZone {
 
   /// The cells that can be painted with the inner brush: those that a box around the discs' intersection touches.
   [[nodiscard]] Region inner_bounds() const;
-  [[nodiscard]] Decision decide(const CellIndex& lo, std::int64_t edge) const;
-  [[nodiscard]] std::uint64_t decide_tile(const CellIndex& lo) const;
+  [[nodiscard]] Decision decide(const Region& cells) const;
+  [[nodiscard]] ChildDecisions decide_children(const CellIndex& origin, std::int64_t child_edge) const;
 
  private:
-  [[nodiscard]] Interval squared(std::size_t k, const CellIndex& lo, std::int64_t edge) const {
-    const Interval side = block_side(grid_, lo, edge, ring_.axis[k]);
-    return up::sqr(ring_.point_first[k] ? up::sub(side, center_[k]) : up::sub(center_[k], side));
-  }
-
-  void column_bounds(std::size_t k, const CellIndex& lo, std::size_t side, double* bound) const;
-  [[nodiscard]] bool too_far(const CellIndex& lo, std::int64_t edge) const;
+  struct Bounds;
+  void bound_children(std::size_t k, const CellIndex& origin, std::int64_t child_edge, Bounds& bounds) const;
+  [[nodiscard]] ChildDecisions decide_plane(const std::array<Bounds, 3>& bounds, double some_up_to,
+                                            bool least_matters) const;
+  [[nodiscard]] ChildDecisions decide_space(const std::array<Bounds, 3>& bounds, double some_up_to,
+                                            bool least_matters) const;
+  [[nodiscard]] bool too_far(const Region& cells) const;
 
   const Grid& grid_;
   const Ring& ring_;

@@ -181,7 +181,7 @@ class UnionContractor final : public Contractor {
   bool may_hold(const SetInterval& set, const SetInterval::Block& block, std::size_t item) {
     inputs_.load(hull_, item);
     for (std::size_t axis = 0; axis < point_.size(); ++axis) {
-      if (point_[axis] != Inputs::kNone) hull_.set(point_[axis], block_side(set.grid(), block.lo, block.edge, axis));
+      if (point_[axis] != Inputs::kNone) hull_.set(point_[axis], closure(set.grid(), Region::block(block.lo, block.edge, set.dim()), axis));
     }
     hull_.forward();
     return !operators::is_false(hull_.get(program_.root()));
@@ -191,7 +191,7 @@ class UnionContractor final : public Contractor {
     inputs_.load(hull_, item);
     for (std::size_t axis = 0; axis < point_.size(); ++axis) {
       if (point_[axis] == Inputs::kNone) continue;
-      const Interval side = block_side(set.grid(), block.lo, block.edge, axis);
+      const Interval side = closure(set.grid(), Region::block(block.lo, block.edge, set.dim()), axis);
       // Blocks are half-open: the last double before the far face is the corner that belongs to it.
       const double at = ((corner >> axis) & 1) != 0 ? up::next_down(side.hi()) : side.lo();
       hull_.set(point_[axis], Interval::raw(at, at));

@@ -30,13 +30,14 @@ class SupportSearch {
     std::fill(hull_.begin(), hull_.end(), Interval::empty());
     try_witnesses(set, feel, box, witnesses, witnesses);
     try_witnesses(set, feel, box, more, witnesses);
+    for (std::size_t face = 0; face < faces(); ++face) climb(set, feel, box, face, witnesses);
     if (hull_ == box) return hull_;
     if (set.background() != CellState::outside) search_beyond(set, feel);
     const SetInterval::Block root = set.root();
     if (!root.any_upper) return hull_;
     reserve(root.edge, set.dim());
     Interval* support = &arena_[0];
-    if (feel(box_of(set, root), support)) explore(set, feel, root, support, support + dim_, witnesses);
+    if (feel(box_of(set, set.upper_bounds(root)), support)) explore(set, feel, root, support, support + dim_, witnesses);
     return hull_;
   }
 
@@ -44,10 +45,11 @@ class SupportSearch {
   [[nodiscard]] bool found_none() const { return dim_ > 0 && hull_[0].is_empty(); }
 
  private:
-  static std::array<Interval, 3> box_of(const SetInterval& set, const SetInterval::Block& block) {
+  // The closure of a box of cells.
+  static std::array<Interval, 3> box_of(const SetInterval& set, const Region& cells) {
     std::array<Interval, 3> box;
     for (std::size_t axis = 0; axis < set.dim(); ++axis) {
-      box[axis] = Interval::raw(set.grid().line(block.lo[axis]), set.grid().line(block.lo[axis] + block.edge));
+      box[axis] = Interval::raw(set.grid().line(cells.lo[axis]), set.grid().line(cells.hi[axis]));
     }
     return box;
   }
@@ -81,27 +83,51 @@ class SupportSearch {
     }
   }
 
+  [[nodiscard]] bool is_supported(const std::vector<Interval>& box, std::size_t face) const {
+    const Interval& known = hull_[face / 2];
+    return face % 2 == 0 ? known.lo() <= box[face / 2].lo() : known.hi() >= box[face / 2].hi();
+  }
+
+  // Widens the hull by what a cell supports, if it is a cell of S+.
+  template <class Feel>
+  void try_cell(const SetInterval& set, Feel& feel, const CellIndex& cell, CellIndex* witnesses) {
+    const CellState state = set.at_cell(cell);
+    if (state != CellState::unknown && state != CellState::inside) return;
+    if (feel(box_of(set, Region::block(cell, 1, set.dim())), support_.data())) widen(support_.data(), cell, witnesses);
+  }
+
   template <class Feel>
   void try_witnesses(const SetInterval& set, Feel& feel, const std::vector<Interval>& box, const CellIndex* guesses,
                      CellIndex* witnesses) {
     for (std::size_t face = 0; face < faces(); ++face) {
-      const Interval& known = hull_[face / 2];
-      const bool supported = face % 2 == 0 ? known.lo() <= box[face / 2].lo() : known.hi() >= box[face / 2].hi();
       const CellIndex cell = guesses[face];
-      if (supported || cell == kNoCell) continue;
-      const CellState state = set.at_cell(cell);
-      if (state != CellState::unknown && state != CellState::inside) continue;
-      SetInterval::Block block;
-      block.lo = cell;
-      block.edge = 1;
-      if (feel(box_of(set, block), support_.data())) widen(support_.data(), cell, witnesses);
+      if (cell != kNoCell && !is_supported(box, face)) try_cell(set, feel, cell, witnesses);
+    }
+  }
+
+  // A face that has lost its witness is mostly supported by a cell close by: steps to better neighbours while there are.
+  template <class Feel>
+  void climb(const SetInterval& set, Feel& feel, const std::vector<Interval>& box, std::size_t face,
+             CellIndex* witnesses) {
+    constexpr int kSteps = 4;
+    for (int step = 0; step < kSteps && !is_supported(box, face); ++step) {
+      const CellIndex center = witnesses[face];
+      if (center == kNoCell) return;
+      for (int neighbour = 0; neighbour < (set.dim() == 1 ? 3 : (set.dim() == 2 ? 9 : 27)); ++neighbour) {
+        CellIndex cell = center;
+        int digits = neighbour;
+        for (std::size_t axis = 0; axis < set.dim(); ++axis, digits /= 3) cell[axis] += digits % 3 - 1;
+        if (cell != center) try_cell(set, feel, cell, witnesses);
+        if (is_supported(box, face)) return;
+      }
+      if (witnesses[face] == center) return;
     }
   }
 
   // The space beyond the tree, as the half-spaces around the root.
   template <class Feel>
   void search_beyond(const SetInterval& set, Feel& feel) {
-    const std::array<Interval, 3> root = box_of(set, set.root());
+    const std::array<Interval, 3> root = box_of(set, set.reach());
     for (std::size_t axis = 0; axis < set.dim(); ++axis) {
       for (const bool above : {false, true}) {
         std::array<Interval, 3> half;
@@ -130,7 +156,7 @@ class SupportSearch {
     std::size_t count = 0;
     set.for_each_upper_part(block, [&](const SetInterval::Block& part) {
       Interval* of_part = free + count * dim_;
-      if (!feel(box_of(set, part), of_part) || !widens(of_part)) return;
+      if (!feel(box_of(set, set.upper_bounds(part)), of_part) || !widens(of_part)) return;
       reaches[count] = reach(of_part);
       parts[count++] = part;
     });

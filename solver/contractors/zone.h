@@ -11,10 +11,17 @@
 
 namespace hcsp {
 
-/// Puts the closure of a block of cells into the bound point's inputs. Contractors decide on closures: what holds on a
-/// closure holds on the half-open cells in it.
-inline Interval block_side(const Grid& grid, const CellIndex& lo, std::int64_t edge, std::size_t axis) {
-  return Interval::raw(grid.line(lo[axis]), grid.line(lo[axis] + edge));
+/// The closure of a box of cells along an axis. Contractors decide on closures: what holds on a closure holds on the
+/// half-open cells in it.
+inline Interval closure(const Grid& grid, const Region& cells, std::size_t axis) {
+  return Interval::raw(grid.line(cells.lo[axis]), grid.line(cells.hi[axis]));
+}
+
+inline bool is_one_cell(const Region& cells, std::size_t dim) {
+  for (std::size_t axis = 0; axis < dim; ++axis) {
+    if (cells.hi[axis] - cells.lo[axis] > 1) return false;
+  }
+  return true;
 }
 
 /// What painting asks of a zone. `inner` paints the cells that certainly lie in the zone; `outer` those that may.
@@ -39,19 +46,20 @@ class RelationZone {
   /// The evaluation at the item, up to the point.
   [[nodiscard]] const Evaluation& evaluation() const { return evaluation_; }
 
-  Decision decide(const CellIndex& lo, std::int64_t edge) {
-    set_point(evaluation_, lo, edge, 1);
+  Decision decide(const Region& cells) {
+    set_point(evaluation_, cells, 1);
     evaluation_.forward_from_point();
     const std::uint32_t root = evaluation_.program().root();
     const Interval holds = evaluation_.get(root);
     if (operators::is_true(holds)) return Decision::all;
     if (operators::is_false(holds)) return Decision::none;
-    if (brush_ == Brush::outer) return edge == 1 ? Decision::all : Decision::split;
+    const bool one = is_one_cell(cells, grid_->dim());
+    if (brush_ == Brush::outer) return one ? Decision::all : Decision::split;
     // A cell is painted where the relation is certain for all inputs: nowhere in the block, if for some one choice of
     // the inputs it holds nowhere in it. Without this every cell that stays undecided would be looked at.
-    if (edge == 1) return Decision::none;
+    if (one) return Decision::none;
     if (lanes_ == 0) take_corners();
-    set_point(corners_, lo, edge, lanes_);
+    set_point(corners_, cells, lanes_);
     corners_.forward_from_point(lanes_);
     for (std::size_t lane = 0; lane < lanes_; ++lane) {
       if (operators::is_false(corners_.get(root, lane))) return Decision::none;
@@ -62,10 +70,10 @@ class RelationZone {
  private:
   static constexpr std::size_t kCorners = 16;
 
-  void set_point(Evaluation& evaluation, const CellIndex& lo, std::int64_t edge, std::size_t lanes) const {
+  void set_point(Evaluation& evaluation, const Region& cells, std::size_t lanes) const {
     for (std::size_t axis = 0; axis < point_.size(); ++axis) {
       if (point_[axis] == Inputs::kNone) continue;
-      const Interval side = block_side(*grid_, lo, edge, axis);
+      const Interval side = closure(*grid_, cells, axis);
       for (std::size_t lane = 0; lane < lanes; ++lane) evaluation.set(point_[axis], side, lane);
     }
   }

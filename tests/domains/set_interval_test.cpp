@@ -16,9 +16,11 @@ namespace {
 struct CellsZone {
   const std::map<CellIndex, bool>& cells;
   std::size_t dim;
-  Decision decide(const CellIndex& lo, std::int64_t edge) const {
-    if (edge == 1) return cells.contains(lo) ? Decision::all : Decision::none;
-    return Decision::split;
+  Decision decide(const Region& box) const {
+    for (std::size_t axis = 0; axis < dim; ++axis) {
+      if (box.hi[axis] - box.lo[axis] > 1) return Decision::split;
+    }
+    return cells.contains(box.lo) ? Decision::all : Decision::none;
   }
 };
 
