@@ -127,31 +127,35 @@ struct DiscZone::Bounds {
   std::array<double, 8> minus_least{};
 };
 
-void DiscZone::bound_children(std::size_t k, const CellIndex& origin, std::int64_t child_edge, Bounds& bounds) const {
-  const std::size_t side = ring_.dim == 2 ? 8 : 4;
+void DiscZone::bound_children(std::size_t k, const CellIndex& origin, std::int64_t child_edge, bool least_matters,
+                              Bounds& bounds) const {
+  // Eight layers in any dimension, in plain loops that vectorise; in space the last four are not used.
   std::array<double, 9> line{};
-  for (std::size_t i = 0; i <= side; ++i) {
+  for (std::size_t i = 0; i < 9; ++i) {
     line[i] = grid_.line(origin[ring_.axis[k]] + static_cast<std::int64_t>(i) * child_edge);
   }
   const double low = center_[k].lo(), high = center_[k].hi();
-  const bool inner = brush_ == Brush::inner;
-  const double spread = inner ? std::max(up::next_down(-0.5 * (low - high)), 0.0) : 0.0;
-  for (std::size_t i = 0; i < side; ++i) {
-    const double greatest = std::max(line[i + 1] - low, high - line[i]);
+  const auto greater = [](double x, double y) { return x > y ? x : y; };
+  for (std::size_t i = 0; i < 8; ++i) {
+    const double greatest = greater(line[i + 1] - low, high - line[i]);
     bounds.greatest[i] = greatest * greatest;
-    const double from_low = -(low - line[i]), from_high = -(line[i + 1] - high);
-    const double nearest_low = -(high - line[i]), nearest_high = -(line[i + 1] - low);
-    const double least = std::max(inner ? std::max(from_low, from_high) : std::max(nearest_low, nearest_high), spread);
+  }
+  if (!least_matters) return;
+  const bool inner = brush_ == Brush::inner;
+  const double from_below = inner ? low : high, from_above = inner ? high : low;
+  const double spread = inner ? greater(up::next_down(-0.5 * (low - high)), 0.0) : 0.0;
+  for (std::size_t i = 0; i < 8; ++i) {
+    const double least = greater(greater(-(from_below - line[i]), -(line[i + 1] - from_above)), spread);
     bounds.minus_least[i] = -least * least;
   }
 }
 
 ChildDecisions DiscZone::decide_children(const CellIndex& origin, std::int64_t child_edge) const {
   std::array<Bounds, 3> bounds;
-  for (std::size_t k = 0; k < ring_.dim; ++k) bound_children(k, origin, child_edge, bounds[k]);
   const bool cells = child_edge == 1;
   const bool inner = brush_ == Brush::inner;
   const bool least_matters = !(cells && inner);
+  for (std::size_t k = 0; k < ring_.dim; ++k) bound_children(k, origin, child_edge, least_matters, bounds[k]);
   // A child may hold cells to settle when its least squared distance is at most this.
   const double some_up_to = inner ? all_up_to_ : (none_from_ < kInfinity ? up::next_down(none_from_) : kInfinity);
   ChildDecisions decisions = ring_.dim == 2 ? decide_plane(bounds, some_up_to, least_matters)

@@ -37,7 +37,8 @@ class DiscZone {
 
  private:
   struct Bounds;
-  void bound_children(std::size_t k, const CellIndex& origin, std::int64_t child_edge, Bounds& bounds) const;
+  void bound_children(std::size_t k, const CellIndex& origin, std::int64_t child_edge, bool least_matters,
+                      Bounds& bounds) const;
   [[nodiscard]] ChildDecisions decide_plane(const std::array<Bounds, 3>& bounds, double some_up_to,
                                             bool least_matters) const;
   [[nodiscard]] ChildDecisions decide_space(const std::array<Bounds, 3>& bounds, double some_up_to,
