@@ -28,11 +28,14 @@ class MeetsContractor final : public Contractor {
     inputs_.open(access);
     const SetInterval& set = access.domain<SetInterval>(set_);
     const bool set_changed = !access.delta<SetInterval>(set_).is_none();
-    const ItemSet items = set_changed ? ItemSet::all(inputs_.items()) : inputs_.changed(access);
+    const ItemSet changed = inputs_.changed(access);
+    const ItemSet items = set_changed ? ItemSet::all(inputs_.items()) : changed;
     bool alive = true;
     std::size_t neighbour = 0;
     items.for_each([&](std::size_t item) {
       if (!alive || inputs_.no_reading_at(item) || access.should_stop()) return;
+      // The box is as the last look left it, fully supported: it still is, if its witnesses are still in S+.
+      if (!changed.contains(item) && search_.all_stand(set, &witnesses_[item * search_.faces()])) return;
       alive = contract_at(set, item, neighbour);
       if (!alive) access.fail(inputs_.variables().empty() ? set_ : inputs_.blamed(), inputs_.when(item));
       neighbour = item;

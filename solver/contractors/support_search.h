@@ -41,10 +41,19 @@ class SupportSearch {
     return hull_;
   }
 
+  /// Every face has a witness, and it is still a cell of S+.
+  [[nodiscard]] bool all_stand(const SetInterval& set, const CellIndex* witnesses) const {
+    return std::all_of(witnesses, witnesses + faces(), [&](const CellIndex& cell) {
+      return cell != kNoCell && may_hold(set.at_cell(cell));
+    });
+  }
+
   /// No cell supported anything.
   [[nodiscard]] bool found_none() const { return dim_ > 0 && hull_[0].is_empty(); }
 
  private:
+  static bool may_hold(CellState state) { return state == CellState::unknown || state == CellState::inside; }
+
   // The closure of a box of cells.
   static std::array<Interval, 3> box_of(const SetInterval& set, const Region& cells) {
     std::array<Interval, 3> box;
@@ -91,8 +100,7 @@ class SupportSearch {
   // Widens the hull by what a cell supports, if it is a cell of S+.
   template <class Feel>
   void try_cell(const SetInterval& set, Feel& feel, const CellIndex& cell, CellIndex* witnesses) {
-    const CellState state = set.at_cell(cell);
-    if (state != CellState::unknown && state != CellState::inside) return;
+    if (!may_hold(set.at_cell(cell))) return;
     if (feel(box_of(set, Region::block(cell, 1, set.dim())), support_.data())) widen(support_.data(), cell, witnesses);
   }
 
