@@ -69,8 +69,12 @@ double measure(const Box& a) {
 
 std::string to_string(const Box& a) {
   std::string text = "(";
-  for (Eigen::Index i = 0; i < a.dim(); ++i) text += (i == 0 ? "" : ", ") + to_string(a[i]);
-  return text + ")";
+  for (Eigen::Index i = 0; i < a.dim(); ++i) {
+    if (i > 0) text += ", ";
+    text += to_string(a[i]);
+  }
+  text += ')';
+  return text;
 }
 
 }  // namespace hcsp

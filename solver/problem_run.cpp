@@ -115,7 +115,7 @@ bool infeasible_with(const ProblemView& problem, const PropagationOptions& optio
 void explain(const ProblemView& problem, const PropagationOptions& options, double started, const Failure& failure,
              Result& result) {
   Explanation explanation;
-  explanation.constraint = problem.graph.contractors()[failure.contractor]->constraint();
+  if (failure.contractor) explanation.constraint = problem.graph.contractors()[*failure.contractor]->constraint();
   explanation.variable = problem.graph.variable(failure.variable).name();
   explanation.time = failure.time;
   const std::vector<NumberedReading> readings = readings_of(problem);

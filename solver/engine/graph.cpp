@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "solver/engine/graph.h"
 
-#include <algorithm>
-
 namespace hcsp {
 
 VariableId ContractorGraph::add_slot(std::string name, bool hidden, std::unique_ptr<Slot> slot) {
-  const bool taken = std::any_of(variables_.begin(), variables_.end(), [&](const Variable& v) { return v.name() == name; });
-  require(!taken, "ContractorGraph: there is a variable {} already", name);
+  require(names_.insert(name).second, "ContractorGraph: there is a variable {} already", name);
   variables_.emplace_back(std::move(name), hidden, std::move(slot));
   return static_cast<VariableId>(variables_.size() - 1);
 }

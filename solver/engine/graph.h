@@ -5,6 +5,7 @@
 
 #include <memory>
 #include <string>
+#include <unordered_set>
 #include <vector>
 
 #include "domains/check.h"
@@ -57,6 +58,7 @@ class ContractorGraph {
   VariableId add_slot(std::string name, bool hidden, std::unique_ptr<Slot> slot);
 
   std::vector<Variable> variables_;
+  std::unordered_set<std::string> names_;
   std::vector<std::unique_ptr<Contractor>> contractors_;
 };
 

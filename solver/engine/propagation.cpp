@@ -90,21 +90,21 @@ bool Propagation::end_pass(Observer* observer) {
 }
 
 Ending Propagation::run(Observer* observer) {
+  failure_.reset();
   for (VariableId v = 0; v < slots_.size(); ++v) {
     slots_[v]->wake_all(graph_.variable(v).readers().size());
+    if (slots_[v]->is_empty() && !failure_) failure_ = Failure{std::nullopt, v, std::nullopt};
   }
   awake_.assign(graph_.contractors().size(), true);
   ran_this_pass_.assign(graph_.contractors().size(), false);
-  failure_.reset();
   pass_ = 1;
-  for (auto next = next_awake(); next; next = next_awake()) {
+  for (auto next = next_awake(); next && !failure_; next = next_awake()) {
     if (out_of_limits()) return Ending::limit;
     if (ran_this_pass_[*next]) {
       if (end_pass(observer)) return Ending::limit;
       ++pass_;
     }
     run_contractor(*next, observer);
-    if (failure_) break;
   }
   static_cast<void>(end_pass(observer));
   if (failure_) return Ending::empty;

@@ -40,7 +40,7 @@ struct PropagationOptions {
 
 /// Which contractor found which variable empty, and over which span of time, where the variable has one.
 struct Failure {
-  ContractorId contractor;
+  std::optional<ContractorId> contractor;  ///< none when the variable was empty from the start
   VariableId variable;
   std::optional<std::array<double, 2>> time;
 };

@@ -47,7 +47,8 @@ TEST(TimeLine, JoinsJitteredStamps) {
     EXPECT_EQ(line.end(), 9.0);
     EXPECT_TRUE(std::is_sorted(line.instants().begin(), line.instants().end(), std::less_equal<>()));
     for (const double t : stamps) EXPECT_EQ(line.gate_at(t).has_value(), 0 <= t && t <= 9) << t;
-    for (std::size_t k = 0; k < line.slices(); ++k) EXPECT_LE(line.instants()[k + 1] - line.instants()[k], 0.1 + 1e-9);
+    for (std::size_t k = 0; k < line.slices(); ++k)
+      EXPECT_LE(line.instants()[k + 1] - line.instants()[k], 0.1 + 1e-9);
   });
 }
 

@@ -108,7 +108,8 @@ TEST(Hold, KeepsAValueUntilTheNextStamp) {
 TEST(Hold, EnclosesTheStaircaseAtEveryInstant) {
   oracle::for_seeds(100, [](oracle::Dice& dice) {
     std::vector<double> stamps, instants{0.0};
-    for (double t = oracle::dyadic(dice, -2, 2); t < 12; t += oracle::dyadic(dice, 0.125, 2)) stamps.push_back(t);
+    for (double t = oracle::dyadic(dice, -2, 2); t < 12; t += oracle::dyadic(dice, 0.125, 2))
+      stamps.push_back(t);
     while (instants.back() < 12) instants.push_back(instants.back() + oracle::dyadic(dice, 0.25, 1.5));
     std::vector<Box> values;
     for (std::size_t r = 0; r < stamps.size(); ++r) {
@@ -125,7 +126,8 @@ TEST(Hold, EnclosesTheStaircaseAtEveryInstant) {
         const Interval span = line->span(item);
         const bool within = item % 2 == 0 ? span.lo() == t : span.lo() < t && t < span.hi();
         if (!within) continue;
-        for (std::size_t c = 0; c < 2; ++c) EXPECT_TRUE(leq(value[static_cast<Eigen::Index>(c)], tube.at(c, item))) << t;
+        for (std::size_t c = 0; c < 2; ++c)
+          EXPECT_TRUE(leq(value[static_cast<Eigen::Index>(c)], tube.at(c, item))) << t;
       }
     }
   });
@@ -136,7 +138,8 @@ TEST(Sampled, IsKnownAtItsStampsOnly) {
   const Tube tube = sampled(line, {0.0, 2.0}, {Box{{1, 2}, {3, 4}}, Box{{5, 6}, {7, 8}}});
   EXPECT_EQ(tube.gate(0, 0), Interval(1, 2));
   EXPECT_EQ(tube.gate(1, 2), Interval(7, 8));
-  for (std::size_t item = 1; item < 4; ++item) EXPECT_TRUE(tube.at(0, item).is_entire() && tube.at(1, item).is_entire());
+  for (std::size_t item = 1; item < 4; ++item)
+    EXPECT_TRUE(tube.at(0, item).is_entire() && tube.at(1, item).is_entire());
 }
 
 TEST(Sampled, StampsMustBeInstants) {

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lang/catalogue.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <vector>
+
+#include "lang/catalogue/entries.h"
+
+namespace hcsp::lang {
+
+std::span<const CatalogueEntry> catalogue() {
+  static const std::vector<CatalogueEntry> all = [] {
+    std::vector<CatalogueEntry> entries;
+    for (const auto part :
+         {syntax_entries(), name_entries(), data_entries(), time_entries(), relation_entries()}) {
+      entries.insert(entries.end(), part.begin(), part.end());
+    }
+    std::sort(entries.begin(), entries.end(), [](const auto& a, const auto& b) { return a.code < b.code; });
+    return entries;
+  }();
+  return all;
+}
+
+const CatalogueEntry& entry(Code code) {
+  const auto all = catalogue();
+  return *std::lower_bound(all.begin(), all.end(), code,
+                           [](const CatalogueEntry& e, Code wanted) { return e.code < wanted; });
+}
+
+std::string code_id(Code code) { return fmt::format("E{:03}", static_cast<unsigned>(code)); }
+
+namespace {
+
+std::string indented(std::string_view text) {
+  std::string result;
+  for (std::size_t at = 0; at <= text.size();) {
+    const std::size_t end = std::min(text.find('\n', at), text.size());
+    result += fmt::format("    {}\n", text.substr(at, end - at));
+    at = end + 1;
+  }
+  return result;
+}
+
+}  // namespace
+
+std::string explanation_page(std::string_view id) {
+  if (!id.empty() && (id.front() == 'E' || id.front() == 'e')) id.remove_prefix(1);
+  unsigned number = 0;
+  const auto [end, error] = std::from_chars(id.data(), id.data() + id.size(), number);
+  if (error != std::errc() || end != id.data() + id.size()) return {};
+  for (const CatalogueEntry& e : catalogue()) {
+    if (static_cast<unsigned>(e.code) != number) continue;
+    return fmt::format("{}: {}\n\n{}\n\nWrong:\n\n{}\nRight:\n\n{}", code_id(e.code), e.format, e.explanation,
+                       indented(e.wrong), indented(e.right));
+  }
+  return {};
+}
+
+}  // namespace hcsp::lang

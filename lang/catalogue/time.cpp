@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <array>
+
+#include "lang/catalogue/entries.h"
+
+namespace hcsp::lang {
+
+std::span<const CatalogueEntry> time_entries() {
+  static constexpr std::array kEntries{
+      CatalogueEntry{Code::no_time_line, "a tube needs a time line, and the model has no `time`",
+                     "Tubes are functions of the time that the `time` item declares.", "var x : tube real;",
+                     "time t in [0, 1] step 0.1;\nvar x : tube real;"},
+      CatalogueEntry{
+          Code::off_the_time_line, "the instant {} is outside the time line [{}, {}]",
+          "A tube has values on its time line only. When stamps have an offset, say x(first(log.t)).",
+          "time t in [0, 1] step 0.1;\nvar x : tube real;\nconstraint x(1000) == 0;",
+          "time t in [0, 1] step 0.1;\nvar x : tube real;\nconstraint x(1) == 0;"},
+      CatalogueEntry{Code::bad_time_span, "a time line runs from an instant to a later one, both finite",
+                     "Write [start, end] with start < end, or give two stamps or more.",
+                     "time t in [1, 1] step 0.1;", "time t in [0, 1] step 0.1;"},
+      CatalogueEntry{Code::bad_step, "the step of a time line is a positive number", "Write `step 0.1`.",
+                     "time t in [0, 1] step 0;", "time t in [0, 1] step 0.1;"},
+      CatalogueEntry{Code::too_many_instants, "[{}, {}] in steps of {} are over ten million instants",
+                     "Either the step is too small, or the span starts far from the data.",
+                     "time t in [0, 1700000000] step 0.1;", "time t in [1700000000, 1700000100] step 0.1;"},
+      CatalogueEntry{Code::bad_precision, "a precision is a positive number, this is {}",
+                     "The precision of a set is the edge of its cells.",
+                     "var M : set real[2] in [0, 1]^2 precision 0;",
+                     "var M : set real[2] in [0, 1]^2 precision 0.1;"},
+      CatalogueEntry{
+          Code::flat_frame, "this frame has no extent along axis {}",
+          "The bound of a set is a box with an inside: a frame of zero area would leave nothing of the set.",
+          "var M : set real[2] in ([0, 1], [2, 2]) precision 0.1;",
+          "var M : set real[2] in ([0, 1], [2, 3]) precision 0.1;"},
+      CatalogueEntry{Code::no_precision, "the set `{}` has no precision",
+                     "A set is known on a grid of cells; `precision` is their edge.",
+                     "var M : set real[2] in [0, 1]^2;", "var M : set real[2] in [0, 1]^2 precision 0.1;"},
+      CatalogueEntry{Code::negative_error, "an error bound is not negative",
+                     "m +- e is the interval [m - e, m + e].", "var x : real in 1 +- -0.1;",
+                     "var x : real in 1 +- 0.1;"},
+      CatalogueEntry{
+          Code::precisions_differ, "the precisions of `{}` ({}) and `{}` ({}) differ",
+          "Sets that meet in a relation stand on one grid.",
+          "var A : set real[2] in [0, 1]^2 precision 0.1;\nvar B : set real[2] in [0, 1]^2 precision 0.2;\n"
+          "constraint disjoint(A, B);",
+          "var A : set real[2] in [0, 1]^2 precision 0.1;\nvar B : set real[2] in [0, 1]^2 precision 0.1;\n"
+          "constraint disjoint(A, B);"},
+      CatalogueEntry{Code::bad_set_dimension, "sets have points of 1 to 3 components, this is {}",
+                     "Write set real[2] or set real[3].", "var M : set real[4] precision 0.1;",
+                     "var M : set real[3] precision 0.1;"},
+      CatalogueEntry{
+          Code::out_of_range, "this is beyond what can be solved: {}",
+          "A number is too large, or too small beside another, for the computation that the model asks for.",
+          "var M : set real[2] in [-1e30, 1e30]^2 precision 0.1;",
+          "var M : set real[2] in [-100, 100]^2 precision 0.1;"},
+      CatalogueEntry{Code::unbounded_frame, "the bound of a set has to be finite",
+                     "Leave out `in` where no bound is known: the whole space is then unknown.",
+                     "var M : set real[2] in [-oo, oo]^2 precision 0.1;",
+                     "var M : set real[2] precision 0.1;"},
+      CatalogueEntry{Code::data_outside, "no row of the data lies within the time line [{}, {}]",
+                     "Rows outside the time line are not used; here, none is left.",
+                     "data log = csv(\"log.csv\");\ntime t in [100, 101] step 0.1;\n"
+                     "given z : tube real = sampled(log.t, log.range);",
+                     "data log = csv(\"log.csv\");\ntime t in [first(log.t), last(log.t)] step 0.1;\n"
+                     "given z : tube real = sampled(log.t, log.range);"},
+  };
+  return kEntries;
+}
+
+}  // namespace hcsp::lang

@@ -1,0 +1,250 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+
+#include "lang/check/checker.h"
+
+namespace hcsp::lang {
+
+Type Checker::check_call(const Expr& expr) {
+  const Expr& callee = *expr.operands[0];
+  const bool is_name = callee.kind == ExprKind::name;
+  const bool is_local = is_name && std::any_of(locals_.begin(), locals_.end(), [&](const Visible& local) {
+                          return local.name == callee.text;
+                        });
+  if (is_name && !is_local) {
+    const auto found = model_.by_name.find(callee.text);
+    Symbol* symbol = found == model_.by_name.end() ? nullptr : found->second;
+    if (symbol != nullptr && symbol->as<FunctionItem>() != nullptr) {
+      model_.set_reference(callee, {symbol, Reference::kNoLocal, BuiltIn::none});
+      ensure(*symbol);
+      return check_function_call(expr, *symbol);
+    }
+    if (symbol != nullptr) ensure(*symbol);
+    // A table called `log` leaves the logarithm its name.
+    const BuiltInFunction* built_in = find_built_in(callee.text);
+    if (built_in != nullptr && (symbol == nullptr || !symbol->type.tube))
+      return check_built_in(expr, *built_in);
+    if (symbol == nullptr) {
+      std::vector<std::string> names;
+      for (const Symbol& known : model_.symbols) {
+        const bool callable = known.as<FunctionItem>() != nullptr || known.type.tube;
+        if (callable) names.emplace_back(known.name.text);
+      }
+      for (const BuiltInFunction& known : built_in_functions()) names.emplace_back(known.name);
+      diagnostics()
+          .report(Code::unknown_function, callee.range, callee.text)
+          .did_you_mean(callee.text, names);
+      return {};
+    }
+  }
+  const Type type = check(callee);
+  if (type.is_error()) return {};
+  if (type.tube && type.is(Type::Kind::real)) return check_instant(expr, type);
+  diagnostics().report(Code::not_callable, callee.range, callee.range.text().substr(0, 40), describe(type));
+  return {};
+}
+
+bool Checker::check_count(const Expr& expr, std::string_view name, std::size_t fewest, std::size_t most) {
+  const std::size_t count = expr.operands.size() - 1;
+  if (fewest <= count && count <= most) return true;
+  const auto plural = [](std::size_t n) { return fmt::format("{} argument{}", n, n == 1 ? "" : "s"); };
+  const std::string wanted = most == fewest ? plural(fewest)
+                             : most == 255  ? fmt::format("at least {}", plural(fewest))
+                                            : fmt::format("{} to {}", fewest, plural(most));
+  diagnostics().report(Code::wrong_argument_count, expr.operands[0]->range, name, wanted, count);
+  return false;
+}
+
+Type Checker::check_function_call(const Expr& expr, const Symbol& function) {
+  std::vector<Type> arguments;
+  bool bad = false;
+  for (std::size_t i = 1; i < expr.operands.size(); ++i) {
+    arguments.push_back(check(*expr.operands[i]));
+    bad = bad || arguments.back().is_error();
+  }
+  const std::size_t count = function.as<FunctionItem>()->parameters.size();
+  if (!check_count(expr, function.name.text, count, count) || bad || function.type.is_error()) return {};
+  Type type = function.type;
+  for (std::size_t i = 0; i < arguments.size(); ++i) {
+    const Type& wanted = function.parameters[i];
+    if (arguments[i].kind != wanted.kind || arguments[i].dim != wanted.dim) {
+      diagnostics()
+          .report(Code::wrong_type, expr.operands[i + 1]->range, describe(wanted), describe(arguments[i]))
+          .note(fmt::format("it is `{}` of `{}`", function.as<FunctionItem>()->parameters[i].name.text,
+                            function.name.text));
+      return {};
+    }
+    type.tube = type.tube || arguments[i].tube;
+    // What depends on parameters alone is known once the arguments are.
+    if (function.type.known == Known::at_call) {
+      type.known = i == 0 ? arguments[i].known : std::min(type.known, arguments[i].known);
+    }
+  }
+  return type;
+}
+
+Type Checker::check_instant(const Expr& expr, const Type& callee) {
+  const std::string name(expr.operands[0]->range.text().substr(0, 40));
+  if (!check_count(expr, name, 1, 1)) return {};
+  const Expr& instant = *expr.operands[1];
+  const Type type = check(instant);
+  if (type.is_error()) return {};
+  Type at = callee;
+  at.known = Known::by_solving;
+  if (instant.kind == ExprKind::name && model_.reference(instant).symbol == model_.time) return at;
+  if (!type.is_scalar_real()) {
+    diagnostics().report(Code::wrong_type, instant.range, "an instant", describe(type));
+    return {};
+  }
+  if (type.tube) return not_supported(instant.range, "a tube at another time than the one at hand");
+  if (type.known == Known::at_call) {
+    diagnostics().report(Code::not_constant, instant.range);
+    return {};
+  }
+  if (type.known == Known::by_solving) return not_supported(instant.range, "a tube at an unknown instant");
+  model_.instants.push_back(&instant);
+  at.tube = false;
+  return at;
+}
+
+Type Checker::check_built_in(const Expr& expr, const BuiltInFunction& function) {
+  Expr& callee = *expr.operands[0];
+  model_.set_reference(callee, {nullptr, Reference::kNoLocal, function.id});
+  if (!check_count(expr, function.name, function.fewest_arguments, function.most_arguments)) return {};
+  switch (function.id) {
+    case BuiltIn::unsupported:
+      return not_supported(callee.range, fmt::format("`{}`", function.name));
+    case BuiltIn::der:
+      return check_der(expr);
+    case BuiltIn::distance:
+      return check_distance(expr);
+    case BuiltIn::disjoint:
+    case BuiltIn::meets:
+      return check_set_relation(expr, function);
+    default:
+      break;
+  }
+  std::vector<Type> arguments;
+  for (std::size_t i = 1; i < expr.operands.size(); ++i) arguments.push_back(check(*expr.operands[i]));
+  for (std::size_t i = 0; i < arguments.size(); ++i) {
+    if (arguments[i].is_error()) return {};
+    if (arguments[i].is(Type::Kind::domain)) return domain_in_expression(*expr.operands[i + 1]);
+  }
+  switch (function.id) {
+    case BuiltIn::norm:
+    case BuiltIn::dot:
+    case BuiltIn::sum:
+    case BuiltIn::prod:
+      return check_vector_function(expr, function, arguments);
+    case BuiltIn::first:
+    case BuiltIn::last:
+    case BuiltIn::rows:
+      return check_data_function(expr, function, arguments);
+    case BuiltIn::hold:
+    case BuiltIn::sampled:
+      return check_given_function(expr, function, arguments);
+    case BuiltIn::min:
+    case BuiltIn::max:
+      if (arguments.size() == 1) return check_vector_function(expr, function, arguments);
+      return check_scalar_function(expr, function, arguments);
+    default:
+      return check_scalar_function(expr, function, arguments);
+  }
+}
+
+Type Checker::check_scalar_function(const Expr& expr, const BuiltInFunction& function,
+                                    const std::vector<Type>& arguments) {
+  Type type{Type::Kind::real, false, 0, Known::now, nullptr};
+  for (std::size_t i = 0; i < arguments.size(); ++i) {
+    if (arguments[i].is(Type::Kind::column)) {
+      return not_supported(expr.operands[i + 1]->range,
+                           fmt::format("`{}` of a column of data", function.name));
+    }
+    if (!arguments[i].is_scalar_real()) {
+      diagnostics().report(Code::wrong_type, expr.operands[i + 1]->range, "`real`", describe(arguments[i]));
+      return {};
+    }
+    type = combined(Type::Kind::real, 0, type, arguments[i]);
+  }
+  return type;
+}
+
+Type Checker::check_vector_function(const Expr& expr, const BuiltInFunction&,
+                                    const std::vector<Type>& arguments) {
+  Type type{Type::Kind::real, false, 0, Known::now, nullptr};
+  for (std::size_t i = 0; i < arguments.size(); ++i) {
+    if (!arguments[i].is(Type::Kind::real) || arguments[i].dim == 0) {
+      diagnostics().report(Code::wrong_type, expr.operands[i + 1]->range, "a vector", describe(arguments[i]));
+      return {};
+    }
+    if (arguments[i].dim != arguments[0].dim) {
+      diagnostics().report(Code::sizes_differ, expr.range, describe(arguments[0]), describe(arguments[i]));
+      return {};
+    }
+    type = combined(Type::Kind::real, 0, type, arguments[i]);
+  }
+  return type;
+}
+
+Type Checker::check_data_function(const Expr& expr, const BuiltInFunction& function,
+                                  const std::vector<Type>& arguments) {
+  const bool takes_table = function.id == BuiltIn::rows;
+  const Type& type = arguments[0];
+  const bool fits = takes_table ? type.is(Type::Kind::table) : type.is(Type::Kind::column) && type.dim == 0;
+  if (!fits) {
+    diagnostics().report(Code::wrong_type, expr.operands[1]->range,
+                         takes_table ? "a table of data" : "a column of data", describe(type));
+    return {};
+  }
+  return {Type::Kind::real, false, 0, Known::now, nullptr};
+}
+
+Type Checker::check_given_function(const Expr& expr, const BuiltInFunction& function,
+                                   const std::vector<Type>& arguments) {
+  if (!arguments[0].is(Type::Kind::column) || arguments[0].dim != 0) {
+    diagnostics().report(Code::wrong_type, expr.operands[1]->range, "a column of stamps",
+                         describe(arguments[0]));
+    return {};
+  }
+  if (!arguments[1].is(Type::Kind::column)) {
+    diagnostics().report(Code::wrong_type, expr.operands[2]->range, "a column of data",
+                         describe(arguments[1]));
+    return {};
+  }
+  if (arguments[0].data != arguments[1].data) {
+    diagnostics().report(Code::rows_differ, expr.operands[2]->range, arguments[0].data->name.text,
+                         arguments[1].data->name.text);
+    return {};
+  }
+  if (arguments.size() == 3 && (!require_scalar(*expr.operands[3], arguments[2]) ||
+                                !require_constant(*expr.operands[3], arguments[2]))) {
+    return {};
+  }
+  if (model_.time == nullptr) {
+    diagnostics()
+        .report(Code::no_time_line, expr.range)
+        .note(fmt::format("`{}` makes a tube", function.name));
+    return {};
+  }
+  return {Type::Kind::domain, true, arguments[1].dim, Known::now, arguments[1].data};
+}
+
+Type Checker::check_der(const Expr& expr) {
+  const Type type = check(*expr.operands[1]);
+  if (type.is_error()) return {};
+  if (!is_stated_side(expr)) {
+    diagnostics().report(Code::der_misplaced, expr.range);
+    return {};
+  }
+  const Expr& argument = *expr.operands[1];
+  const Symbol* symbol = argument.kind == ExprKind::name ? model_.reference(argument).symbol : nullptr;
+  const bool is_tube = symbol != nullptr &&
+                       (symbol->as<VarItem>() != nullptr || symbol->as<GivenItem>() != nullptr) && type.tube;
+  if (!is_tube) {
+    diagnostics().report(Code::der_of_what, argument.range);
+    return {};
+  }
+  return type;
+}
+
+}  // namespace hcsp::lang

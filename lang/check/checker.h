@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: Apache-2.0
+// The checker's state. Its functions are spread over items.cpp, expressions.cpp, calls.cpp and sets.cpp.
+#pragma once
+
+#include <array>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "lang/evaluate/evaluator.h"
+#include "lang/model/model.h"
+
+namespace hcsp::lang {
+
+class Checker {
+ public:
+  Checker(Model& model, const std::map<std::string, std::string>& data_files)
+      : model_(model), data_files_(data_files), constants_(model) {}
+
+  void run();
+
+ private:
+  struct Visible {
+    std::string_view name;
+    std::uint32_t id;
+    Type type;
+  };
+
+  // Items.
+  void declare(const Item& item);
+  Symbol* declare(const Name& name, decltype(Symbol::item) item);
+  void ensure(Symbol& symbol);
+  void check_symbol(Symbol& symbol);
+  void check_parameter(Symbol& symbol, const ParamItem& item);
+  void check_data(Symbol& symbol, const DataItem& item);
+  void check_time(Symbol& symbol, const TimeItem& item);
+  void check_function(Symbol& symbol, const FunctionItem& item);
+  void check_given(Symbol& symbol, const GivenItem& item);
+  void check_variable(Symbol& symbol, const VarItem& item);
+  void check_let(Symbol& symbol, const LetItem& item);
+  void check_constraint(const ConstraintItem& item);
+  void check_solve(const SolveItem& item, const SourceRange& range);
+  void check_show(const ShowItem& item);
+  Type resolve(const TypeExpr& type);
+  /// Whether a value of type `found` may stand where `wanted` is declared; reports otherwise.
+  bool require_domain(const Expr& value, const Type& found, const Type& wanted);
+  bool require_constant(const Expr& expr, const Type& type);
+  bool require_scalar(const Expr& expr, const Type& type);
+  bool refuse_kind(const TypeExpr& type, std::string_view what);
+
+  // Expressions. `expr` is typed, recorded and returned; an error has been reported.
+  Type check(const Expr& expr);
+  Type check_kind(const Expr& expr);
+  Type check_name(const Expr& expr);
+  Type check_member(const Expr& expr);
+  Type check_index(const Expr& expr);
+  Type check_unary(const Expr& expr);
+  Type check_binary(const Expr& expr);
+  Type check_arithmetic(const Expr& expr, const Type& a, const Type& b);
+  Type check_power(const Expr& expr, const Type& base, const Type& exponent);
+  Type check_tolerance(const Expr& expr, const Type& a, const Type& b);
+  Type check_comparison(const Expr& expr, const Type& a, const Type& b);
+  Type check_membership(const Expr& expr, const Type& a, const Type& b);
+  Type check_logic(const Expr& expr, const Type& a, const Type& b);
+  Type check_tuple(const Expr& expr);
+  Type check_interval(const Expr& expr);
+  Type check_conditional(const Expr& expr);
+  Type wrong_operands(const Expr& expr, const Type& a, const Type& b);
+  Type domain_in_expression(const Expr& expr);
+  Type not_supported(const SourceRange& range, std::string_view what);
+
+  // Calls.
+  Type check_call(const Expr& expr);
+  Type check_function_call(const Expr& expr, const Symbol& function);
+  Type check_instant(const Expr& expr, const Type& callee);
+  Type check_built_in(const Expr& expr, const BuiltInFunction& function);
+  Type check_scalar_function(const Expr& expr, const BuiltInFunction& function,
+                             const std::vector<Type>& arguments);
+  Type check_vector_function(const Expr& expr, const BuiltInFunction& function,
+                             const std::vector<Type>& arguments);
+  Type check_data_function(const Expr& expr, const BuiltInFunction& function,
+                           const std::vector<Type>& arguments);
+  Type check_given_function(const Expr& expr, const BuiltInFunction& function,
+                            const std::vector<Type>& arguments);
+  Type check_der(const Expr& expr);
+  bool check_count(const Expr& expr, std::string_view name, std::size_t fewest, std::size_t most);
+
+  // Sets and quantifiers.
+  Type check_builder(const Expr& expr, std::uint32_t dim);
+  Type check_set(const Expr& expr, std::uint32_t dim);
+  /// Two operands of which a set builder may take its dimension from the other.
+  std::pair<Type, Type> check_pair(const Expr& a, const Expr& b);
+  Type check_set_relation(const Expr& expr, const BuiltInFunction& function);
+  Type check_distance(const Expr& expr);
+  Type check_quantified(const Expr& expr, std::uint32_t dim);
+  Type check_minimum(const Expr& expr);
+  bool binds_time(const Expr& expr);
+  [[nodiscard]] bool is_stated_side(const Expr& expr) const {
+    return sides_[0] == &expr || sides_[1] == &expr;
+  }
+
+  // A relation that a constraint states: here der and distance may stand alone on a side of ==.
+  Type check_stated(const Expr& expr);
+
+  std::uint32_t bind(std::string_view name, const Type& type);
+  [[nodiscard]] std::vector<std::string> visible_names() const;
+  Diagnostics& diagnostics() { return model_.diagnostics(); }
+
+  Model& model_;
+  const std::map<std::string, std::string>& data_files_;
+  Evaluator constants_;
+  std::vector<Visible> locals_;  // those in sight, the innermost last
+  std::uint32_t next_local_ = 0;
+  bool pointwise_ = false;              // within what holds or is taken at one instant
+  const Expr* stated_ = nullptr;        // a relation that a constraint states
+  std::array<const Expr*, 2> sides_{};  // of a stated ==, which may be der or distance
+  std::uint32_t depth_ = 0;
+  bool solve_seen_ = false;
+  bool model_seen_ = false;
+};
+
+/// The type of what is made of both: it varies if one does, and is known when both are.
+inline Type combined(Type::Kind kind, std::uint32_t dim, const Type& a, const Type& b) {
+  return {kind, a.tube || b.tube, dim, std::min(a.known, b.known), nullptr};
+}
+
+}  // namespace hcsp::lang

@@ -1,0 +1,414 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+
+#include "lang/check/checker.h"
+#include "lang/syntax/parser.h"
+
+namespace hcsp::lang {
+
+namespace {
+// Definitions that use each other are followed to this depth; the stack holds several frames a level.
+constexpr std::uint32_t kDeepestCheck = 2000;
+}  // namespace
+
+Type Checker::check(const Expr& expr) {
+  if (depth_ >= kDeepestCheck) {
+    diagnostics().report(Code::too_deep, expr.range, kDeepestNesting, kDeepestTree);
+    return {};
+  }
+  ++depth_;
+  const Type type = check_kind(expr);
+  --depth_;
+  model_.set_type(expr, type);
+  return type;
+}
+
+Type Checker::check_kind(const Expr& expr) {
+  const Type number{Type::Kind::real, false, 0, Known::now, nullptr};
+  switch (expr.kind) {
+    case ExprKind::number:
+      return number;
+    case ExprKind::string:
+      return {Type::Kind::text, false, 0, Known::now, nullptr};
+    case ExprKind::boolean:
+      return {Type::Kind::boolean, false, 0, Known::now, nullptr};
+    case ExprKind::infinity:
+      diagnostics().report(Code::misplaced_infinity, expr.range);
+      return {};
+    case ExprKind::name:
+      return check_name(expr);
+    case ExprKind::member:
+      return check_member(expr);
+    case ExprKind::index:
+      return check_index(expr);
+    case ExprKind::call:
+      return check_call(expr);
+    case ExprKind::unary:
+      return check_unary(expr);
+    case ExprKind::binary:
+      return check_binary(expr);
+    case ExprKind::tuple:
+      return check_tuple(expr);
+    case ExprKind::interval:
+      return check_interval(expr);
+    case ExprKind::builder:
+      return check_builder(expr, 0);
+    case ExprKind::quantified:
+      return check_quantified(expr, 0);
+    case ExprKind::conditional:
+      return check_conditional(expr);
+  }
+  return {};
+}
+
+Type Checker::check_name(const Expr& expr) {
+  for (auto local = locals_.rbegin(); local != locals_.rend(); ++local) {
+    if (local->name != expr.text) continue;
+    model_.set_reference(expr, {nullptr, local->id, BuiltIn::none});
+    return local->type;
+  }
+  const auto found = model_.by_name.find(expr.text);
+  if (found != model_.by_name.end()) {
+    Symbol& symbol = *found->second;
+    model_.set_reference(expr, {&symbol, Reference::kNoLocal, BuiltIn::none});
+    ensure(symbol);
+    if (symbol.as<FunctionItem>() != nullptr) {
+      diagnostics().report(Code::wrong_type, expr.range, "a value", "a function").note("call it");
+      return {};
+    }
+    if (symbol.as<ConstraintItem>() != nullptr) {
+      diagnostics().report(Code::wrong_type, expr.range, "a value", "the name of a constraint");
+      return {};
+    }
+    return symbol.type;
+  }
+  if (expr.text == "pi") return {Type::Kind::real, false, 0, Known::now, nullptr};
+  if (find_built_in(expr.text) != nullptr) {
+    diagnostics().report(Code::wrong_type, expr.range, "a value", "a function").note("call it");
+    return {};
+  }
+  diagnostics().report(Code::unknown_name, expr.range, expr.text).did_you_mean(expr.text, visible_names());
+  return {};
+}
+
+Type Checker::check_member(const Expr& expr) {
+  const Type base = check(*expr.operands[0]);
+  if (base.is_error()) return {};
+  if (!base.is(Type::Kind::table)) {
+    diagnostics().report(Code::wrong_type, expr.operands[0]->range, "a table of data", describe(base));
+    return {};
+  }
+  const Table& table = *base.data->table;
+  const auto& columns = table.columns();
+  if (std::find(columns.begin(), columns.end(), expr.text) == columns.end()) {
+    auto& diagnostic =
+        diagnostics().report(Code::unknown_column, expr.token, table.source().name(), expr.text);
+    diagnostic.did_you_mean(expr.text, columns);
+    std::string list;
+    for (std::size_t i = 0; i < std::min<std::size_t>(columns.size(), 20); ++i) {
+      list += fmt::format("{}{}", i == 0 ? "" : ", ", columns[i]);
+    }
+    diagnostic.note(fmt::format("its columns are {}{}", list, columns.size() > 20 ? ", ..." : ""));
+    return {};
+  }
+  return {Type::Kind::column, false, 0, Known::now, base.data};
+}
+
+Type Checker::check_index(const Expr& expr) {
+  const Type base = check(*expr.operands[0]);
+  Type index;
+  for (std::size_t i = 1; i < expr.operands.size(); ++i) index = check(*expr.operands[i]);
+  if (base.is_error() || index.is_error()) return {};
+  const bool is_column = base.is(Type::Kind::column) && base.dim == 0;
+  if (!is_column && (!base.is(Type::Kind::real) || base.dim == 0)) {
+    diagnostics().report(Code::no_components, expr.operands[0]->range, describe(base));
+    return {};
+  }
+  if (expr.operands.size() != 2) {
+    diagnostics().report(Code::wrong_argument_count, expr.range, "[]", "1 index", expr.operands.size() - 1);
+    return {};
+  }
+  const Expr& written = *expr.operands[1];
+  if (!require_scalar(written, index) || !require_constant(written, index)) return {};
+  const auto place = constants_.whole(written);
+  if (!place) return {};
+  const std::size_t count = is_column ? base.data->table->rows() : base.dim;
+  if (*place < 1 || static_cast<std::size_t>(*place) > count) {
+    auto& diagnostic = diagnostics().report(is_column ? Code::row_outside : Code::index_outside,
+                                            written.range, *place, count);
+    if (*place == 0) diagnostic.note("indices start at 1");
+    return {};
+  }
+  if (is_column) return {Type::Kind::real, false, 0, Known::now, nullptr};
+  return {Type::Kind::real, base.tube, 0, base.known, nullptr};
+}
+
+Type Checker::wrong_operands(const Expr& expr, const Type& a, const Type& b) {
+  diagnostics().report(Code::wrong_operands, expr.token, spelling(expr.op), describe(a), describe(b));
+  return {};
+}
+
+Type Checker::domain_in_expression(const Expr& expr) {
+  auto& diagnostic = diagnostics().report(Code::domain_in_expression, expr.range);
+  if (expr.kind != ExprKind::binary || expr.op != Operator::equal) return {};
+  const bool right = model_.type(*expr.operands[1]).is(Type::Kind::domain);
+  const std::string_view value = expr.operands[right ? 0 : 1]->range.text();
+  const std::string_view domain = expr.operands[right ? 1 : 0]->range.text();
+  if (value.size() + domain.size() < 80) diagnostic.note(fmt::format("write `{} in {}`", value, domain));
+  return {};
+}
+
+Type Checker::check_unary(const Expr& expr) {
+  const Type a = check(*expr.operands[0]);
+  if (a.is_error()) return {};
+  if (expr.op == Operator::logical_not) {
+    if (!a.is(Type::Kind::boolean)) return wrong_operands(expr, a, a);
+    if (a.tube && !pointwise_) {
+      diagnostics().report(Code::logic_over_time, expr.token, spelling(expr.op));
+      return {};
+    }
+    return a;
+  }
+  if (a.is(Type::Kind::domain)) return domain_in_expression(expr);
+  if (a.is(Type::Kind::real) || a.is(Type::Kind::column)) return a;
+  diagnostics().report(Code::wrong_type, expr.operands[0]->range, "a number", describe(a));
+  return {};
+}
+
+Type Checker::check_binary(const Expr& expr) {
+  if (std::exchange(stated_, nullptr) == &expr && expr.op == Operator::equal) {
+    sides_ = {expr.operands[0], expr.operands[1]};
+  }
+  // The operands of a relation are taken at one instant.
+  const bool pointwise = std::exchange(pointwise_, pointwise_ || !is_logical(expr.op));
+  const auto [a, b] = check_pair(*expr.operands[0], *expr.operands[1]);
+  pointwise_ = pointwise;
+  if (a.is_error() || b.is_error()) return {};
+  if (is_logical(expr.op)) return check_logic(expr, a, b);
+  if (is_comparison(expr.op)) return check_comparison(expr, a, b);
+  switch (expr.op) {
+    case Operator::in:
+      return check_membership(expr, a, b);
+    case Operator::plus_minus:
+      return check_tolerance(expr, a, b);
+    case Operator::power:
+      return check_power(expr, a, b);
+    case Operator::range:
+    case Operator::subset:
+    case Operator::set_union:
+    case Operator::set_symdiff:
+    case Operator::set_minus:
+    case Operator::set_inter:
+      return not_supported(expr.token, fmt::format("`{}`", spelling(expr.op)));
+    default:
+      return check_arithmetic(expr, a, b);
+  }
+}
+
+Type Checker::check_arithmetic(const Expr& expr, const Type& a, const Type& b) {
+  if (a.is(Type::Kind::domain) || b.is(Type::Kind::domain)) return domain_in_expression(expr);
+  const bool columns = a.is(Type::Kind::column) || b.is(Type::Kind::column);
+  const auto is_operand = [](const Type& t) { return t.is(Type::Kind::real) || t.is(Type::Kind::column); };
+  if (!is_operand(a) || !is_operand(b)) return wrong_operands(expr, a, b);
+  if (columns && a.known != Known::now && b.known != Known::now) return wrong_operands(expr, a, b);
+  std::uint32_t dim = a.dim;
+  switch (expr.op) {
+    case Operator::multiply:
+      if (a.dim != 0 && b.dim != 0) {
+        wrong_operands(expr, a, b);
+        return {};
+      }
+      dim = std::max(a.dim, b.dim);
+      break;
+    case Operator::divide:
+      if (b.dim != 0) return wrong_operands(expr, a, b);
+      break;
+    default:
+      if (a.dim != b.dim) return wrong_operands(expr, a, b);
+      break;
+  }
+  if (!columns) return combined(Type::Kind::real, dim, a, b);
+  if (a.known != Known::now || b.known != Known::now) {
+    diagnostics().report(Code::not_constant, expr.operands[a.known == Known::now ? 1 : 0]->range);
+    return {};
+  }
+  if (a.data != nullptr && b.data != nullptr && a.data != b.data) {
+    diagnostics().report(Code::rows_differ, expr.range, a.data->name.text, b.data->name.text);
+    return {};
+  }
+  Type type = combined(Type::Kind::column, dim, a, b);
+  type.data = a.data != nullptr ? a.data : b.data;
+  return type;
+}
+
+Type Checker::check_power(const Expr& expr, const Type& base, const Type& exponent) {
+  const Expr& written = *expr.operands[1];
+  if (!require_scalar(written, exponent) || !require_constant(written, exponent)) return {};
+  if (base.is(Type::Kind::domain)) {
+    if (base.dim != 0 || base.tube) return wrong_operands(expr, base, exponent);
+    const auto count = constants_.whole(written);
+    if (!count) return {};
+    if (*count < 1 || *count > static_cast<int>(kMostComponents)) {
+      diagnostics().report(Code::bad_size, written.range, kMostComponents, *count);
+      return {};
+    }
+    return {Type::Kind::domain, false, static_cast<std::uint32_t>(*count), base.known, nullptr};
+  }
+  if (!base.is_scalar_real()) return wrong_operands(expr, base, exponent);
+  const auto value = constants_.number(written);
+  if (!value) return {};
+  const auto whole = value->exact ? value->exact->as_int() : std::nullopt;
+  if (!whole || *whole < -64 || *whole > 64) return not_supported(written.range, "this exponent");
+  return base;
+}
+
+Type Checker::check_tolerance(const Expr& expr, const Type& a, const Type& b) {
+  const bool centre = a.is(Type::Kind::real) || (a.is(Type::Kind::domain) && a.tube);
+  const bool error = (b.is(Type::Kind::real) && !b.tube) || b.is(Type::Kind::column);
+  if (!centre || !error) return wrong_operands(expr, a, b);
+  if (b.dim != 0 && b.dim != a.dim) {
+    diagnostics().report(Code::sizes_differ, expr.range, describe(a), describe(b));
+    return {};
+  }
+  if (b.is(Type::Kind::column) && a.data != b.data) {
+    diagnostics().report(Code::rows_differ, expr.range, a.data == nullptr ? "the value" : a.data->name.text,
+                         b.data->name.text);
+    return {};
+  }
+  Type type = combined(Type::Kind::domain, a.dim, a, b);
+  type.data = a.data;
+  return type;
+}
+
+Type Checker::check_comparison(const Expr& expr, const Type& a, const Type& b) {
+  if (a.is(Type::Kind::domain) || b.is(Type::Kind::domain)) return domain_in_expression(expr);
+  const bool sets = a.is(Type::Kind::set) && b.is(Type::Kind::set) && expr.op == Operator::equal;
+  if (!sets && (!a.is(Type::Kind::real) || !b.is(Type::Kind::real))) return wrong_operands(expr, a, b);
+  if (a.dim != b.dim) {
+    diagnostics().report(Code::sizes_differ, expr.range, describe(a), describe(b));
+    return {};
+  }
+  if (sets && (a.tube || b.tube)) {
+    diagnostics().report(Code::zone_over_time, expr.operands[a.tube ? 0 : 1]->range, model_.time->name.text);
+    return {};
+  }
+  return combined(Type::Kind::boolean, 0, a, b);
+}
+
+Type Checker::check_membership(const Expr& expr, const Type& a, const Type& b) {
+  if (b.is(Type::Kind::set)) return not_supported(expr.token, "a point in a set");
+  if (!a.is(Type::Kind::real) || !b.is(Type::Kind::domain)) return wrong_operands(expr, a, b);
+  if (a.dim != b.dim) {
+    diagnostics().report(Code::sizes_differ, expr.range, describe(a), describe(b));
+    return {};
+  }
+  if (b.data != nullptr) return not_supported(expr.operands[1]->range, "data as a domain within a relation");
+  return combined(Type::Kind::boolean, 0, a, b);
+}
+
+Type Checker::check_logic(const Expr& expr, const Type& a, const Type& b) {
+  if (!a.is(Type::Kind::boolean) || !b.is(Type::Kind::boolean)) return wrong_operands(expr, a, b);
+  if (expr.op != Operator::logical_and && (a.tube || b.tube) && !pointwise_) {
+    diagnostics().report(Code::logic_over_time, expr.token, spelling(expr.op));
+    return {};
+  }
+  return combined(Type::Kind::boolean, 0, a, b);
+}
+
+Type Checker::check_tuple(const Expr& expr) {
+  Type type{Type::Kind::real, false, static_cast<std::uint32_t>(expr.operands.size()), Known::now, nullptr};
+  std::size_t columns = 0;
+  bool bad = false;
+  for (const Expr* operand : expr.operands) {
+    const Type component = check(*operand);
+    if (component.is_error()) {
+      bad = true;
+      continue;
+    }
+    if (component.dim != 0) {
+      not_supported(operand->range, "a matrix");
+      bad = true;
+      continue;
+    }
+    const bool is_column = component.is(Type::Kind::column);
+    if (!is_column && !component.is(Type::Kind::real) && !component.is(Type::Kind::domain)) {
+      diagnostics().report(Code::wrong_type, operand->range, "a number", describe(component));
+      bad = true;
+      continue;
+    }
+    if (is_column && type.data != nullptr && type.data != component.data) {
+      diagnostics().report(Code::rows_differ, operand->range, type.data->name.text,
+                           component.data->name.text);
+      bad = true;
+    }
+    columns += is_column ? 1 : 0;
+    if (component.is(Type::Kind::domain)) type.kind = Type::Kind::domain;
+    if (is_column) type.data = component.data;
+    type.tube = type.tube || component.tube;
+    type.known = std::min(type.known, component.known);
+  }
+  if (bad) return {};
+  if (columns == 0) return type;
+  if (columns != expr.operands.size()) {
+    diagnostics().report(Code::wrong_type, expr.range, "columns only", "columns beside numbers");
+    return {};
+  }
+  type.kind = Type::Kind::column;
+  return type;
+}
+
+Type Checker::check_interval(const Expr& expr) {
+  Type type{Type::Kind::domain, false, 0, Known::now, nullptr};
+  bool bad = false;
+  for (const Expr* bound : expr.operands) {
+    const bool negated = bound->kind == ExprKind::unary && bound->op == Operator::negate;
+    const Expr& inner = negated ? *bound->operands[0] : *bound;
+    if (inner.kind == ExprKind::infinity) {
+      const bool fits = negated == (bound == expr.operands[0]);
+      if (!fits) diagnostics().report(Code::misplaced_infinity, bound->range);
+      bad = bad || !fits;
+      continue;
+    }
+    const Type found = check(*bound);
+    if (!found.is_error() && !found.is_scalar_real()) {
+      diagnostics().report(Code::wrong_type, bound->range, "a number", describe(found));
+    }
+    bad = bad || !found.is_scalar_real();
+    type.tube = type.tube || found.tube;
+    type.known = std::min(type.known, found.known);
+  }
+  return bad ? Type{} : type;
+}
+
+Type Checker::check_conditional(const Expr& expr) {
+  const bool pointwise = std::exchange(pointwise_, true);
+  const Type condition = check(*expr.operands[0]);
+  pointwise_ = pointwise;
+  const Type then = check(*expr.operands[1]);
+  const Type otherwise = check(*expr.operands[2]);
+  if (condition.is_error() || then.is_error() || otherwise.is_error()) return {};
+  if (!condition.is(Type::Kind::boolean)) {
+    diagnostics().report(Code::wrong_type, expr.operands[0]->range, "a relation", describe(condition));
+    return {};
+  }
+  const bool fits =
+      then.kind == otherwise.kind && (then.is(Type::Kind::real) || then.is(Type::Kind::boolean));
+  if (!fits) {
+    diagnostics().report(Code::wrong_type, expr.operands[2]->range, describe(then), describe(otherwise));
+    return {};
+  }
+  if (then.dim != otherwise.dim) {
+    diagnostics().report(Code::sizes_differ, expr.range, describe(then), describe(otherwise));
+    return {};
+  }
+  Type type = combined(then.kind, then.dim, then, otherwise);
+  type.tube = type.tube || condition.tube;
+  type.known = Known::by_solving;
+  if (type.is(Type::Kind::boolean) && type.tube && !pointwise_) {
+    diagnostics().report(Code::logic_over_time, expr.range, "if");
+    return {};
+  }
+  return type;
+}
+
+}  // namespace hcsp::lang

@@ -1,0 +1,321 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+
+#include "lang/check/check.h"
+#include "lang/check/checker.h"
+#include "lang/data/file.h"
+
+namespace hcsp::lang {
+
+namespace {
+
+std::string place_text(const SourceRange& range) {
+  const auto place = range.source->position(range.begin);
+  return fmt::format("{}:{}", range.source->name(), place.line);
+}
+
+}  // namespace
+
+void check(Model& model, const std::map<std::string, std::string>& data_files) {
+  Checker(model, data_files).run();
+}
+
+void Checker::run() {
+  for (const Item& item : model_.tree().items) declare(item);
+  for (Symbol& symbol : model_.symbols) ensure(symbol);
+  for (const Item& item : model_.tree().items) {
+    if (const auto* constraint = std::get_if<ConstraintItem>(&item.content)) check_constraint(*constraint);
+    if (const auto* solve = std::get_if<SolveItem>(&item.content)) check_solve(*solve, item.range);
+    if (const auto* show = std::get_if<ShowItem>(&item.content)) check_show(*show);
+  }
+}
+
+// ---- Declarations.
+
+void Checker::declare(const Item& item) {
+  const auto once = [&](bool& seen, std::string_view word) {
+    if (seen) diagnostics().report(Code::item_twice, item.range, word);
+    seen = true;
+  };
+  if (const auto* model = std::get_if<ModelItem>(&item.content)) {
+    once(model_seen_, "model");
+    model_.name = model->name.text;
+  } else if (std::holds_alternative<SolveItem>(item.content)) {
+    once(solve_seen_, "solve");
+  } else if (const auto* param = std::get_if<ParamItem>(&item.content)) {
+    declare(param->name, param);
+  } else if (const auto* data = std::get_if<DataItem>(&item.content)) {
+    declare(data->name, data);
+  } else if (const auto* time = std::get_if<TimeItem>(&item.content)) {
+    bool seen = model_.time != nullptr;
+    once(seen, "time");
+    Symbol* symbol = declare(time->name, time);
+    if (model_.time == nullptr) model_.time = symbol;
+  } else if (const auto* function = std::get_if<FunctionItem>(&item.content)) {
+    if (find_built_in(function->name.text) != nullptr) {
+      diagnostics().report(Code::built_in_name, function->name.range, function->name.text);
+    } else {
+      declare(function->name, function);
+    }
+  } else if (const auto* given = std::get_if<GivenItem>(&item.content)) {
+    declare(given->name, given);
+  } else if (const auto* var = std::get_if<VarItem>(&item.content)) {
+    for (const Name& name : var->names) declare(name, var);
+  } else if (const auto* let = std::get_if<LetItem>(&item.content)) {
+    declare(let->name, let);
+  } else if (const auto* constraint = std::get_if<ConstraintItem>(&item.content)) {
+    if (constraint->name) declare(*constraint->name, constraint);
+  }
+}
+
+Symbol* Checker::declare(const Name& name, decltype(Symbol::item) item) {
+  if (name.text == "pi") {
+    diagnostics().report(Code::built_in_name, name.range, name.text);
+    return nullptr;
+  }
+  const auto known = model_.by_name.find(name.text);
+  if (known != model_.by_name.end()) {
+    diagnostics()
+        .report(Code::declared_twice, name.range, name.text)
+        .note(fmt::format("first declared at {}", place_text(known->second->name.range)));
+    return nullptr;
+  }
+  Symbol& symbol = model_.symbols.emplace_back();
+  symbol.item = item;
+  symbol.name = name;
+  model_.by_name.emplace(name.text, &symbol);
+  return &symbol;
+}
+
+void Checker::ensure(Symbol& symbol) {
+  if (symbol.state == Symbol::State::done) return;
+  if (symbol.state == Symbol::State::visiting) {
+    const bool is_function = symbol.as<FunctionItem>() != nullptr;
+    diagnostics().report(is_function ? Code::recursion : Code::cyclic_definition, symbol.name.range,
+                         symbol.name.text);
+    symbol.type = {};
+    symbol.state = Symbol::State::done;
+    return;
+  }
+  symbol.state = Symbol::State::visiting;
+  // A definition sees nothing of the place that asks for it.
+  std::vector<Visible> locals;
+  std::swap(locals, locals_);
+  const bool pointwise = std::exchange(pointwise_, false);
+  const Expr* stated = std::exchange(stated_, nullptr);
+  check_symbol(symbol);
+  std::swap(locals, locals_);
+  pointwise_ = pointwise;
+  stated_ = stated;
+  symbol.state = Symbol::State::done;
+}
+
+void Checker::check_symbol(Symbol& symbol) {
+  if (const auto* param = symbol.as<ParamItem>()) check_parameter(symbol, *param);
+  if (const auto* data = symbol.as<DataItem>()) check_data(symbol, *data);
+  if (const auto* time = symbol.as<TimeItem>()) check_time(symbol, *time);
+  if (const auto* function = symbol.as<FunctionItem>()) check_function(symbol, *function);
+  if (const auto* given = symbol.as<GivenItem>()) check_given(symbol, *given);
+  if (const auto* var = symbol.as<VarItem>()) check_variable(symbol, *var);
+  if (const auto* let = symbol.as<LetItem>()) check_let(symbol, *let);
+}
+
+// ---- Items.
+
+void Checker::check_parameter(Symbol& symbol, const ParamItem& item) {
+  const Type found = check(*item.value);
+  if (symbol.state == Symbol::State::done || found.is_error()) return;  // a cycle was reported
+  if (!require_constant(*item.value, found)) return;
+  Type wanted = found;
+  if (item.type != nullptr) {
+    wanted = resolve(*item.type);
+    if (wanted.is_error() || !require_domain(*item.value, found, wanted)) return;
+    if (wanted.tube || wanted.is(Type::Kind::set)) {
+      not_supported(item.type->range, "a parameter of this type");
+      return;
+    }
+    if (item.type->base == TypeExpr::Base::integer && found.is(Type::Kind::real) &&
+        !constants_.whole(*item.value))
+      return;
+  } else if (found.tube || (!found.is(Type::Kind::real) && !found.is(Type::Kind::domain))) {
+    diagnostics().report(Code::wrong_type, item.value->range, "a number, a vector or a domain",
+                         describe(found));
+    return;
+  }
+  symbol.unknown = found.is(Type::Kind::domain);
+  symbol.type = {Type::Kind::real, false, wanted.dim, symbol.unknown ? Known::by_solving : Known::now,
+                 nullptr};
+  model_.definitions.push_back(&symbol);
+}
+
+void Checker::check_data(Symbol& symbol, const DataItem& item) {
+  if (item.reader.text == "json") {
+    not_supported(item.reader.range, "data in JSON");
+    return;
+  }
+  if (item.reader.text != "csv") {
+    diagnostics()
+        .report(Code::unknown_function, item.reader.range, item.reader.text)
+        .note("data is read by `csv`");
+    return;
+  }
+  std::string path = beside(item.path.range.source->name(), std::string(item.path.text));
+  SourceRange place = item.path.range;
+  if (const auto replaced = data_files_.find(std::string(item.name.text)); replaced != data_files_.end()) {
+    path = replaced->second;
+    const Source& source = model_.tree().add_source(fmt::format("--data {}", item.name.text), path);
+    place = {&source, 0, static_cast<std::uint32_t>(path.size())};
+  }
+  std::string error;
+  auto text = read_file(path, error);
+  if (!text) {
+    diagnostics().report(Code::unreadable_data, place, path, error);
+    return;
+  }
+  auto table = Table::read(model_.tree().add_source(path, std::move(*text)), diagnostics());
+  if (!table) return;
+  symbol.table = &model_.tables.emplace_back(std::move(*table));
+  symbol.type = {Type::Kind::table, false, 0, Known::now, &symbol};
+}
+
+void Checker::check_time(Symbol& symbol, const TimeItem& item) {
+  symbol.type = {Type::Kind::real, true, 0, Known::by_solving, nullptr};
+  if (item.phases != nullptr) {
+    not_supported(item.phases->range, "a time line with phases");
+    return;
+  }
+  if (item.stamps != nullptr) {
+    const Type type = check(*item.stamps);
+    if (!type.is_error() && (!type.is(Type::Kind::column) || type.dim != 0)) {
+      diagnostics().report(Code::wrong_type, item.stamps->range, "a column of stamps", describe(type));
+    }
+    return;
+  }
+  const Type span = check(*item.span);
+  if (!span.is_error()) {
+    if (!span.is(Type::Kind::domain) || span.dim != 0 || span.tube) {
+      diagnostics().report(Code::wrong_type, item.span->range, "an interval `[start, end]`", describe(span));
+    } else {
+      require_constant(*item.span, span);
+    }
+  }
+  const Type step = check(*item.step);
+  if (!step.is_error() && require_scalar(*item.step, step)) require_constant(*item.step, step);
+}
+
+void Checker::check_function(Symbol& symbol, const FunctionItem& item) {
+  const Type result = resolve(*item.type);
+  symbol.first_local = next_local_;
+  bool good = !result.is_error();
+  for (const Parameter& parameter : item.parameters) {
+    Type type = resolve(*parameter.type);
+    if (type.tube || type.is(Type::Kind::set)) {
+      type = not_supported(parameter.type->range, "a tube or a set as a parameter of a function");
+    }
+    good = good && !type.is_error();
+    type.known = Known::at_call;
+    symbol.parameters.push_back(type);
+    bind(parameter.name.text, type);
+  }
+  next_local_ += static_cast<std::uint32_t>(item.locals.size());
+  pointwise_ = true;  // at a call, the arguments are taken at one instant
+  std::uint32_t id = symbol.first_local + static_cast<std::uint32_t>(item.parameters.size());
+  for (const Local& local : item.locals) {
+    const Type type = check(*local.value);
+    locals_.push_back({local.name.text, id++, type});
+  }
+  const Type body = check(*item.body);
+  if (!good || body.is_error() || symbol.state == Symbol::State::done) return;
+  if (body.kind != result.kind || body.dim != result.dim) {
+    diagnostics().report(Code::wrong_type, item.body->range, describe(result), describe(body));
+    return;
+  }
+  symbol.type = body;
+}
+
+void Checker::check_given(Symbol& symbol, const GivenItem& item) {
+  const Type wanted = refuse_kind(*item.type, "a given") ? Type{} : resolve(*item.type);
+  symbol.type = wanted;
+  const Type found = check(*item.value);
+  if (wanted.is_error() || found.is_error() || !require_domain(*item.value, found, wanted)) return;
+  if (wanted.is(Type::Kind::set)) {
+    not_supported(item.value->range, "a given set");
+  } else {
+    require_constant(*item.value, found);
+  }
+}
+
+void Checker::check_variable(Symbol& symbol, const VarItem& item) {
+  const bool first = item.names.front().text == symbol.name.text;
+  // The type and the domain of `var x, y : ...` are one text: its mistakes are told once.
+  if (!first) {
+    const auto leader = model_.by_name.find(item.names.front().text);
+    if (leader != model_.by_name.end() && leader->second->as<VarItem>() == &item) {
+      ensure(*leader->second);
+      symbol.type = leader->second->type;
+      return;
+    }
+  }
+  const Type type = refuse_kind(*item.type, "an unknown") ? Type{} : resolve(*item.type);
+  if (item.precision != nullptr && !item.type->set) {
+    diagnostics().report(Code::misplaced_precision, item.precision->range, describe(type));
+  } else if (item.precision != nullptr) {
+    const Type precision = check(*item.precision);
+    if (!precision.is_error() && require_scalar(*item.precision, precision))
+      require_constant(*item.precision, precision);
+  } else if (type.is(Type::Kind::set)) {
+    diagnostics().report(Code::no_precision, symbol.name.range, symbol.name.text);
+  }
+  if (item.domain != nullptr) {
+    const Type domain = check(*item.domain);
+    Type values = type;
+    if (type.is(Type::Kind::set)) values.kind = Type::Kind::real;
+    const bool fits = !type.is_error() && !domain.is_error() && require_domain(*item.domain, domain, values);
+    if (fits) require_constant(*item.domain, domain);
+  }
+  symbol.type = type;
+}
+
+void Checker::check_let(Symbol& symbol, const LetItem& item) {
+  const Type wanted = item.type == nullptr ? Type{} : resolve(*item.type);
+  const Type found = check(*item.value);
+  if (found.is_error() || symbol.state == Symbol::State::done) return;
+  if (item.type != nullptr) {
+    if (wanted.is_error()) return;
+    if (found.kind != wanted.kind || found.dim != wanted.dim || (found.tube && !wanted.tube)) {
+      diagnostics().report(Code::wrong_type, item.value->range, describe(wanted), describe(found));
+      return;
+    }
+  }
+  symbol.type = found;
+  model_.definitions.push_back(&symbol);
+}
+
+void Checker::check_constraint(const ConstraintItem& item) {
+  const Type type = check_stated(*item.relation);
+  if (type.is_error() || type.is(Type::Kind::boolean)) return;
+  diagnostics().report(Code::not_a_relation, item.relation->range, describe(type));
+}
+
+void Checker::check_solve(const SolveItem& item, const SourceRange& range) {
+  if (item.goal == SolveItem::Goal::propagate && item.precision == nullptr) return;
+  constexpr std::string_view kGoals[] = {"a precision of `solve propagate`", "`solve all`", "`solve pave`",
+                                         "`solve minimize`", "`solve maximize`"};
+  not_supported(range, kGoals[static_cast<std::size_t>(item.goal)]);
+}
+
+void Checker::check_show(const ShowItem& item) {
+  for (const Expr* shown : item.shown) {
+    if (shown->kind != ExprKind::name) {
+      not_supported(shown->range, "showing an expression");
+      continue;
+    }
+    if (check_name(*shown).is_error()) continue;
+    const Symbol* symbol = model_.reference(*shown).symbol;
+    const bool unknown = symbol != nullptr && (symbol->as<VarItem>() != nullptr ||
+                                               symbol->as<GivenItem>() != nullptr || symbol->unknown);
+    if (!unknown) diagnostics().report(Code::not_shown, shown->range, shown->text);
+  }
+}
+
+}  // namespace hcsp::lang

@@ -1,0 +1,230 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+
+#include "lang/compile/compile.h"
+#include "lang/compile/compiler.h"
+
+namespace hcsp::lang {
+
+namespace {
+
+constexpr double kMostInstants = 1e7;  // of a time line that a person meant
+
+// The values that a model states for an unknown, if any.
+const Expr* stated_domain(const Symbol& symbol) {
+  if (const auto* given = symbol.as<GivenItem>()) return given->value;
+  if (const auto* var = symbol.as<VarItem>()) return var->domain;
+  if (const auto* param = symbol.as<ParamItem>()) return param->value;
+  return nullptr;
+}
+
+bool is_unknown(const Symbol& symbol) {
+  return symbol.unknown || symbol.as<GivenItem>() != nullptr || symbol.as<VarItem>() != nullptr;
+}
+
+}  // namespace
+
+std::unique_ptr<Problem> compile(Model& model) { return Compiler(model).run(); }
+
+std::unique_ptr<Problem> Compiler::run() {
+  plan_tubes();
+  if (model_.diagnostics().any()) return nullptr;
+  if (model_.time != nullptr && !make_time_line()) return nullptr;
+  for (const Symbol& symbol : model_.symbols) {
+    if (is_unknown(symbol)) make_unknown(symbol);
+  }
+  if (model_.diagnostics().any()) return nullptr;
+  // In the order of definition, so that a long chain of lets is no deep recursion.
+  for (const Symbol* symbol : model_.definitions) {
+    const auto* let = symbol->as<LetItem>();
+    if (let != nullptr && symbol->type.is(Type::Kind::real)) evaluator_.define(*symbol, *let->value);
+  }
+  for (const Item& item : model_.tree().items) {
+    if (const auto* constraint = std::get_if<ConstraintItem>(&item.content)) compile_constraint(*constraint);
+  }
+  if (model_.diagnostics().any()) return nullptr;
+  return std::move(problem_);
+}
+
+// ---- The time line.
+
+void Compiler::plan_tubes() {
+  for (const Symbol& symbol : model_.symbols) {
+    const Expr* domain = is_unknown(symbol) ? stated_domain(symbol) : nullptr;
+    if (domain == nullptr || !symbol.type.tube) continue;
+    if (auto plan = plan_tube(model_, evaluator_, *domain)) plans_.emplace(&symbol, std::move(*plan));
+  }
+}
+
+std::vector<double> Compiler::known_instants() {
+  std::vector<double> instants;
+  for (const auto& [symbol, plan] : plans_) {
+    for (const TubePart& part : plan) instants.insert(instants.end(), part.stamps.begin(), part.stamps.end());
+  }
+  for (const Expr* instant : model_.instants) {
+    if (const auto number = evaluator_.number(*instant)) instants.push_back(number->nearest());
+  }
+  std::sort(instants.begin(), instants.end());
+  instants.erase(std::unique(instants.begin(), instants.end()), instants.end());
+  return instants;
+}
+
+bool Compiler::make_time_line() {
+  const TimeItem& item = *model_.time->as<TimeItem>();
+  std::vector<double> further = known_instants();
+  const auto line = item.stamps != nullptr ? line_of_stamps(item, std::move(further)) : grid(item, further);
+  if (!line) return false;
+  problem_->set_time_line(*line);
+  return check_instants();
+}
+
+std::optional<TimeLine> Compiler::grid(const TimeItem& item, const std::vector<double>& further) {
+  const DomainValue span = evaluator_.domain(*item.span);
+  const auto step = evaluator_.number(*item.step);
+  if (span.empty() || !step) return {};
+  const auto end_of = [](const std::optional<Term>& bound) {
+    return bound ? std::get<Number>(*bound).nearest() : kInfinity;
+  };
+  const double start = end_of(span[0].lo);
+  const double end = end_of(span[0].hi);
+  const double dt = step->nearest();
+  if (!std::isfinite(start) || !std::isfinite(end) || start >= end) {
+    model_.diagnostics().report(Code::bad_time_span, item.span->range);
+    return {};
+  }
+  if (!(dt > 0) || !std::isfinite(dt)) {
+    model_.diagnostics().report(Code::bad_step, item.step->range);
+    return {};
+  }
+  if ((end - start) / dt > kMostInstants) {
+    auto& diagnostic = model_.diagnostics().report(Code::too_many_instants, item.step->range, start, end, dt);
+    for (const Symbol& symbol : model_.symbols) {
+      if (symbol.as<DataItem>() == nullptr) continue;
+      diagnostic.note(
+          fmt::format("do the stamps of `{0}` have an offset? `[first({0}.t), last({0}.t)]` starts with "
+                      "the data, and `time {1} at {0}.t` takes its stamps alone",
+                      symbol.name.text, model_.time->name.text));
+      break;
+    }
+    return {};
+  }
+  std::optional<TimeLine> line;
+  guarded(item.span->range, [&] { line = TimeLine::grid(start, end, dt, further); });
+  return line;
+}
+
+std::optional<TimeLine> Compiler::line_of_stamps(const TimeItem& item, std::vector<double> further) {
+  const auto columns = evaluator_.columns(*item.stamps);
+  if (!columns) return {};
+  auto stamps = instants_of(columns->front(), model_.diagnostics());
+  if (!stamps) return {};
+  if (stamps->size() < 2) {
+    model_.diagnostics().report(Code::bad_time_span, item.stamps->range);
+    return {};
+  }
+  const double start = stamps->front();
+  const double end = stamps->back();
+  std::erase_if(further, [&](double t) { return t < start || t > end; });
+  std::vector<double> all;
+  std::set_union(stamps->begin(), stamps->end(), further.begin(), further.end(), std::back_inserter(all));
+  std::optional<TimeLine> line;
+  guarded(item.stamps->range, [&] { line = TimeLine(std::move(all)); });
+  return line;
+}
+
+bool Compiler::check_instants() {
+  const TimeLine& line = *problem_->time_line();
+  bool good = true;
+  for (const Expr* instant : model_.instants) {
+    const auto number = evaluator_.number(*instant);
+    if (!number) {
+      good = false;
+    } else if (!line.gate_at(number->nearest())) {
+      model_.diagnostics().report(Code::off_the_time_line, instant->range, number->nearest(), line.start(),
+                                  line.end());
+      good = false;
+    }
+  }
+  return good;
+}
+
+// ---- Unknowns.
+
+void Compiler::make_unknown(const Symbol& symbol) {
+  guarded(symbol.name.range, [&] {
+    if (symbol.type.is(Type::Kind::set)) {
+      make_set(symbol, *symbol.as<VarItem>());
+    } else if (symbol.type.tube) {
+      make_tube(symbol);
+    } else {
+      make_plain(symbol, stated_domain(symbol));
+    }
+  });
+}
+
+void Compiler::make_tube(const Symbol& symbol) {
+  const std::string name(symbol.name.text);
+  const auto plan = plans_.find(&symbol);
+  if (plan == plans_.end()) {
+    unknowns_.handles.emplace(&symbol, problem_->tube(name, symbol.type.components()));
+    return;
+  }
+  auto given = build_tube(model_, plan->second, problem_->time_line());
+  if (!given) return;
+  const TubeVariable tube = problem_->tube(name, given->domain);
+  if (!given->readings.empty()) problem_->set_readings(tube, std::move(given->readings));
+  unknowns_.handles.emplace(&symbol, tube);
+}
+
+void Compiler::make_plain(const Symbol& symbol, const Expr* domain) {
+  const std::string name(symbol.name.text);
+  Box box(static_cast<Eigen::Index>(symbol.type.components()));
+  if (domain != nullptr) {
+    const auto stated = evaluator_.box(*domain);
+    if (!stated) return;
+    box = *stated;
+  }
+  if (symbol.type.dim == 0) {
+    unknowns_.handles.emplace(&symbol, problem_->real(name, box[0]));
+  } else {
+    unknowns_.handles.emplace(&symbol, problem_->vector(name, box));
+  }
+}
+
+std::optional<double> Compiler::precision_of(const Expr& expr) {
+  const auto number = evaluator_.number(expr);
+  if (!number) return {};
+  const double precision = number->nearest();
+  if (precision > 0 && std::isfinite(precision)) return precision;
+  model_.diagnostics().report(Code::bad_precision, expr.range, precision);
+  return {};
+}
+
+std::optional<Box> Compiler::frame_of(const Expr& expr) {
+  const auto box = evaluator_.box(expr);
+  if (!box) return {};
+  for (Eigen::Index i = 0; i < box->dim(); ++i) {
+    if (!(*box)[i].is_bounded()) {
+      model_.diagnostics().report(Code::unbounded_frame, expr.range);
+      return {};
+    }
+    if ((*box)[i].lo() >= (*box)[i].hi()) {
+      model_.diagnostics().report(Code::flat_frame, expr.range, i + 1);
+      return {};
+    }
+  }
+  return box;
+}
+
+void Compiler::make_set(const Symbol& symbol, const VarItem& item) {
+  const auto precision = precision_of(*item.precision);
+  std::optional<Box> frame;
+  if (item.domain != nullptr) frame = frame_of(*item.domain);
+  if (!precision || (item.domain != nullptr && !frame)) return;
+  precisions_.emplace(&symbol, *precision);
+  unknowns_.handles.emplace(&symbol,
+                            problem_->set(std::string(symbol.name.text), symbol.type.dim, *precision, frame));
+}
+
+}  // namespace hcsp::lang

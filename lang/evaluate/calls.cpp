@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: Apache-2.0
+// Calls: functions of the model, by substitution; tubes at an instant; built-in functions.
+#include <algorithm>
+#include <utility>
+
+#include "lang/evaluate/evaluator.h"
+
+namespace hcsp::lang {
+
+Value Evaluator::call(const Expr& expr) {
+  const Reference callee = model_.reference(*expr.operands[0]);
+  if (callee.built_in != BuiltIn::none) return built_in(expr, callee.built_in);
+  if (callee.symbol != nullptr && callee.symbol->as<FunctionItem>() != nullptr) {
+    return function_call(expr, *callee.symbol);
+  }
+  return at_instant(expr);
+}
+
+Value Evaluator::function_call(const Expr& expr, const Symbol& function) {
+  const FunctionItem& item = *function.as<FunctionItem>();
+  std::vector<Value> arguments;
+  for (std::size_t i = 1; i < expr.operands.size(); ++i) {
+    arguments.push_back(value(*expr.operands[i]));
+    if (arguments.back().empty()) return {};
+  }
+  // No function calls itself, so its locals are free.
+  std::uint32_t local = function.first_local;
+  for (Value& argument : arguments) bind(local++, std::move(argument));
+  for (const Local& where : item.locals) {
+    Value found = value(*where.value);
+    if (found.empty()) return {};
+    bind(local++, std::move(found));
+  }
+  return value(*item.body);
+}
+
+Value Evaluator::at_instant(const Expr& expr) {
+  const Expr& instant = *expr.operands[1];
+  if (instant.kind == ExprKind::name && model_.reference(instant).symbol == model_.time)
+    return value(*expr.operands[0]);
+  const auto written = number(instant);
+  if (!written) return {};
+  const double at = written->nearest();
+  if (!unknowns_->problem.time_line()->gate_at(at)) return {};  // reported when the time line was made
+  const auto outer = std::exchange(instant_, at);
+  Value found = value(*expr.operands[0]);
+  instant_ = outer;
+  return found;
+}
+
+Term Evaluator::scalar_function(BuiltIn function, const Term& a) {
+  if (const auto* number = std::get_if<Number>(&a)) {
+    switch (function) {
+      case BuiltIn::sqr:
+        return number->exact ? *number * *number : Number::of(sqr(number->enclosure));
+      case BuiltIn::sqrt:
+        return Number::of(sqrt(number->enclosure));
+      case BuiltIn::abs:
+        return Number::of(abs(number->enclosure));
+      case BuiltIn::sin:
+        return Number::of(sin(number->enclosure));
+      default:
+        return Number::of(cos(number->enclosure));
+    }
+  }
+  const hcsp::Expr& x = std::get<hcsp::Expr>(a);
+  switch (function) {
+    case BuiltIn::sqr:
+      return sqr(x);
+    case BuiltIn::sqrt:
+      return sqrt(x);
+    case BuiltIn::abs:
+      return abs(x);
+    case BuiltIn::sin:
+      return sin(x);
+    default:
+      return cos(x);
+  }
+}
+
+Term Evaluator::scalar_function(BuiltIn function, const Term& a, const Term& b) {
+  const auto* x = std::get_if<Number>(&a);
+  const auto* y = std::get_if<Number>(&b);
+  if (x != nullptr && y != nullptr) {
+    switch (function) {
+      case BuiltIn::min:
+        return Number::of(min(x->enclosure, y->enclosure));
+      case BuiltIn::max:
+        return Number::of(max(x->enclosure, y->enclosure));
+      default:
+        return Number::of(atan2(x->enclosure, y->enclosure));
+    }
+  }
+  const hcsp::Expr u = expression(a);
+  const hcsp::Expr v = expression(b);
+  switch (function) {
+    case BuiltIn::min:
+      return min(u, v);
+    case BuiltIn::max:
+      return max(u, v);
+    default:
+      return atan2(u, v);
+  }
+}
+
+Value Evaluator::built_in(const Expr& expr, BuiltIn function) {
+  if (function == BuiltIn::first || function == BuiltIn::last || function == BuiltIn::rows) {
+    return data_value(expr, function);
+  }
+  if (function == BuiltIn::distance) return {};  // a relation of its own (compile)
+  std::vector<Value> arguments;
+  for (std::size_t i = 1; i < expr.operands.size(); ++i) {
+    arguments.push_back(value(*expr.operands[i]));
+    if (arguments.back().empty()) return {};
+  }
+  const Value& a = arguments.front();
+  const auto sum_of = [&](const Value& terms) {
+    Term total = terms.front();
+    for (std::size_t i = 1; i < terms.size(); ++i) total = operate(Operator::add, total, terms[i]);
+    return total;
+  };
+  switch (function) {
+    case BuiltIn::norm: {
+      Value squares;
+      for (const Term& term : a) squares.push_back(scalar_function(BuiltIn::sqr, term));
+      return defined(expr, {scalar_function(BuiltIn::sqrt, sum_of(squares))});
+    }
+    case BuiltIn::dot:
+      return arguments.size() < 2 ? Value{} : Value{sum_of([&] {
+        Value products;
+        for (std::size_t i = 0; i < a.size(); ++i) {
+          products.push_back(operate(Operator::multiply, a[i], arguments[1][i]));
+        }
+        return products;
+      }())};
+    case BuiltIn::sum:
+      return {sum_of(a)};
+    case BuiltIn::prod: {
+      Term product = a.front();
+      for (std::size_t i = 1; i < a.size(); ++i) product = operate(Operator::multiply, product, a[i]);
+      return {product};
+    }
+    case BuiltIn::min:
+    case BuiltIn::max: {
+      // Of one vector, its components; of several numbers, those.
+      Value terms = a;
+      for (std::size_t i = 1; i < arguments.size(); ++i) terms.push_back(arguments[i].front());
+      Term result = terms.front();
+      for (std::size_t i = 1; i < terms.size(); ++i) result = scalar_function(function, result, terms[i]);
+      return {result};
+    }
+    case BuiltIn::atan2:
+      return defined(expr, {scalar_function(function, a.front(), arguments[1].front())});
+    default:
+      return defined(expr, {scalar_function(function, a.front())});
+  }
+}
+
+Value Evaluator::data_value(const Expr& expr, BuiltIn function) {
+  const Expr& argument = *expr.operands[1];
+  if (function == BuiltIn::rows) {
+    const Table& table = *model_.type(argument).data->table;
+    return {*Number::parse(std::to_string(table.rows()))};
+  }
+  const auto column = columns(argument);
+  if (!column) return {};
+  const Column& data = column->front();
+  const std::size_t row = function == BuiltIn::first ? 0 : data.cells.size() - 1;
+  const CellValue& cell = data.cells[row];
+  if (cell.kind == CellValue::Kind::number) return {cell.number};
+  const Code code = cell.kind == CellValue::Kind::blank ? Code::blank_cell : Code::no_echo_here;
+  model_.diagnostics().report(code, data.table->range(row, data.index), data.name());
+  return {};
+}
+
+}  // namespace hcsp::lang

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+// From a model file to a Problem: the one entry of the language. Nothing here prints, exits or throws for
+// what a person wrote: mistakes are diagnostics.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "lang/diagnostics.h"
+#include "lang/syntax/ast.h"
+#include "solver/problem.h"
+
+namespace hcsp::lang {
+
+/// The text of a model. Paths in it are relative to the folder of `name`.
+struct ModelSource {
+  std::string name;
+  std::string text;
+};
+
+struct CompileOptions {
+  /// `--set NAME=VALUE`: values of parameters, as constant expressions or domains of the language.
+  std::map<std::string, std::string> parameters;
+  /// `--data NAME=FILE`: files that replace those of the model, relative to the working folder.
+  std::map<std::string, std::string> data_files;
+  Clock clock = steady_clock();
+};
+
+struct CompiledModel {
+  std::string name;
+  std::unique_ptr<Problem> problem;
+  std::vector<std::string> shown;  ///< what the model asks to show, in its order
+  /// From the first use of a data value to the finished Problem: part of what a result calls its seconds.
+  double data_seconds = 0.0;
+};
+
+/// What became of a model: its syntax tree as far as it was read, and the Problem or what is wrong.
+struct Compilation {
+  std::unique_ptr<SyntaxTree> tree;
+  Diagnostics diagnostics;
+  std::optional<CompiledModel> model;  ///< exactly when there are no diagnostics
+};
+
+Compilation compile_file(const std::string& path, const CompileOptions& options = {});
+Compilation compile_text(ModelSource source, const CompileOptions& options = {});
+
+}  // namespace hcsp::lang

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lang/model/built_in.h"
+
+#include <algorithm>
+#include <array>
+
+namespace hcsp::lang {
+
+namespace {
+
+constexpr std::uint8_t kAny = 255;
+
+constexpr std::array kFunctions{
+    BuiltInFunction{"abs", BuiltIn::abs, 1, 1},
+    BuiltInFunction{"acos", BuiltIn::unsupported, 1, 1},
+    BuiltInFunction{"asin", BuiltIn::unsupported, 1, 1},
+    BuiltInFunction{"atan", BuiltIn::unsupported, 1, 1},
+    BuiltInFunction{"atan2", BuiltIn::atan2, 2, 2},
+    BuiltInFunction{"atleast", BuiltIn::unsupported, 2, kAny},
+    BuiltInFunction{"ceil", BuiltIn::unsupported, 1, 1},
+    BuiltInFunction{"complement", BuiltIn::unsupported, 1, 1},
+    BuiltInFunction{"cos", BuiltIn::cos, 1, 1},
+    BuiltInFunction{"cosh", BuiltIn::unsupported, 1, 1},
+    BuiltInFunction{"cross", BuiltIn::unsupported, 2, 2},
+    BuiltInFunction{"der", BuiltIn::der, 1, 1},
+    BuiltInFunction{"det", BuiltIn::unsupported, 1, 1},
+    BuiltInFunction{"disjoint", BuiltIn::disjoint, 2, 2},
+    BuiltInFunction{"distance", BuiltIn::distance, 2, 2},
+    BuiltInFunction{"dot", BuiltIn::dot, 2, 2},
+    BuiltInFunction{"exp", BuiltIn::unsupported, 1, 1},
+    BuiltInFunction{"first", BuiltIn::first, 1, 1},
+    BuiltInFunction{"floor", BuiltIn::unsupported, 1, 1},
+    BuiltInFunction{"hold", BuiltIn::hold, 2, 2},
+    BuiltInFunction{"image", BuiltIn::unsupported, 1, kAny},
+    BuiltInFunction{"integral", BuiltIn::unsupported, 3, 3},
+    BuiltInFunction{"inverse", BuiltIn::unsupported, 1, 1},
+    BuiltInFunction{"last", BuiltIn::last, 1, 1},
+    BuiltInFunction{"log", BuiltIn::unsupported, 1, 1},
+    BuiltInFunction{"max", BuiltIn::max, 1, kAny},
+    BuiltInFunction{"meets", BuiltIn::meets, 2, 2},
+    BuiltInFunction{"min", BuiltIn::min, 1, kAny},
+    BuiltInFunction{"norm", BuiltIn::norm, 1, 1},
+    BuiltInFunction{"prod", BuiltIn::prod, 1, 1},
+    BuiltInFunction{"root", BuiltIn::unsupported, 2, 2},
+    BuiltInFunction{"rot", BuiltIn::unsupported, 1, kAny},
+    BuiltInFunction{"rows", BuiltIn::rows, 1, 1},
+    BuiltInFunction{"sampled", BuiltIn::sampled, 2, 3},
+    BuiltInFunction{"sign", BuiltIn::unsupported, 1, 1},
+    BuiltInFunction{"sin", BuiltIn::sin, 1, 1},
+    BuiltInFunction{"sinh", BuiltIn::unsupported, 1, 1},
+    BuiltInFunction{"sqr", BuiltIn::sqr, 1, 1},
+    BuiltInFunction{"sqrt", BuiltIn::sqrt, 1, 1},
+    BuiltInFunction{"subset", BuiltIn::unsupported, 2, 2},
+    BuiltInFunction{"sum", BuiltIn::sum, 1, 1},
+    BuiltInFunction{"tan", BuiltIn::unsupported, 1, 1},
+    BuiltInFunction{"tanh", BuiltIn::unsupported, 1, 1},
+    BuiltInFunction{"transpose", BuiltIn::unsupported, 1, 1},
+    BuiltInFunction{"volume", BuiltIn::unsupported, 1, 1},
+    BuiltInFunction{"zeros", BuiltIn::unsupported, 1, 2},
+};
+
+}  // namespace
+
+std::span<const BuiltInFunction> built_in_functions() { return kFunctions; }
+
+const BuiltInFunction* find_built_in(std::string_view name) {
+  const auto found =
+      std::find_if(kFunctions.begin(), kFunctions.end(), [&](const auto& f) { return f.name == name; });
+  return found == kFunctions.end() ? nullptr : &*found;
+}
+
+}  // namespace hcsp::lang

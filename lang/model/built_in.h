@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+// The functions that the language brings along.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+namespace hcsp::lang {
+
+enum class BuiltIn : std::uint8_t {
+  none,
+  // On reals, and pointwise on tubes.
+  sqr,
+  sqrt,
+  abs,
+  sin,
+  cos,
+  min,
+  max,
+  atan2,
+  norm,
+  dot,
+  sum,
+  prod,
+  // On data.
+  first,
+  last,
+  rows,
+  hold,
+  sampled,
+  // In constraints.
+  der,
+  distance,
+  disjoint,
+  meets,
+  // Words of the language that are not solved yet.
+  unsupported,
+};
+
+struct BuiltInFunction {
+  std::string_view name;
+  BuiltIn id;
+  std::uint8_t fewest_arguments;
+  std::uint8_t most_arguments;
+};
+
+/// Every one, by name.
+std::span<const BuiltInFunction> built_in_functions();
+/// Null when there is none of that name.
+const BuiltInFunction* find_built_in(std::string_view name);
+
+}  // namespace hcsp::lang

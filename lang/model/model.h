@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: Apache-2.0
+// A model under check: its syntax tree, what its names stand for, and the type of every expression.
+#pragma once
+
+#include <deque>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <unordered_map>
+#include <variant>
+#include <vector>
+
+#include "lang/data/column.h"
+#include "lang/data/csv.h"
+#include "lang/diagnostics.h"
+#include "lang/model/built_in.h"
+#include "lang/model/type.h"
+#include "lang/syntax/ast.h"
+
+namespace hcsp::lang {
+
+/// A name of the top level.
+struct Symbol {
+  std::variant<const ParamItem*, const DataItem*, const TimeItem*, const FunctionItem*, const GivenItem*,
+               const VarItem*, const LetItem*, const ConstraintItem*>
+      item;
+  Name name;
+  enum class State : std::uint8_t { unvisited, visiting, done };
+  State state = State::unvisited;
+  Type type;                      ///< of the value; of a function, its result
+  bool unknown = false;           ///< a parameter whose value is a domain: an unknown of that domain
+  std::vector<Type> parameters;   ///< of a function
+  std::uint32_t first_local = 0;  ///< of a function: its parameters' locals, then those of its where
+  const Table* table = nullptr;   ///< of data; null when reading it failed
+
+  template <class ItemType>
+  [[nodiscard]] const ItemType* as() const {
+    const auto* held = std::get_if<const ItemType*>(&item);
+    return held == nullptr ? nullptr : *held;
+  }
+};
+
+/// What a name in an expression stands for.
+struct Reference {
+  static constexpr std::uint32_t kNoLocal = 0xFFFFFFFF;
+  const Symbol* symbol = nullptr;
+  std::uint32_t local = kNoLocal;  ///< a parameter of a function, a local of its where, a bound point
+  BuiltIn built_in = BuiltIn::none;
+};
+
+class Model {
+ public:
+  Model(SyntaxTree& tree, Diagnostics& diagnostics) : tree_(&tree), diagnostics_(&diagnostics) {}
+
+  [[nodiscard]] SyntaxTree& tree() const { return *tree_; }
+  [[nodiscard]] Diagnostics& diagnostics() const { return *diagnostics_; }
+
+  std::string name;
+  std::deque<Symbol> symbols;  ///< in the order of declaration
+  std::unordered_map<std::string_view, Symbol*> by_name;
+  std::vector<const Symbol*> definitions;  ///< parameters and lets, each after those that it uses
+  const Symbol* time = nullptr;
+  /// The constant instants at which tubes are taken: x(0).
+  std::vector<const Expr*> instants;
+  std::deque<Table> tables;
+
+  [[nodiscard]] const Type& type(const Expr& expr) const { return types_[expr.id]; }
+  void set_type(const Expr& expr, const Type& type) { grow(types_, expr) = type; }
+  [[nodiscard]] Reference reference(const Expr& expr) const {
+    return expr.id < references_.size() ? references_[expr.id] : Reference{};
+  }
+  void set_reference(const Expr& expr, const Reference& reference) { grow(references_, expr) = reference; }
+
+  /// The expression that a name of a `let` stands for, followed to the end; any other expression is itself.
+  [[nodiscard]] const Expr& unfold(const Expr& expr) const;
+
+ private:
+  template <class Entry>
+  Entry& grow(std::vector<Entry>& entries, const Expr& expr) {
+    if (expr.id >= entries.size()) entries.resize(tree_->expressions());
+    return entries[expr.id];
+  }
+
+  SyntaxTree* tree_;
+  Diagnostics* diagnostics_;
+  std::vector<Type> types_;
+  std::vector<Reference> references_;
+};
+
+}  // namespace hcsp::lang

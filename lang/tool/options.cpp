@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lang/tool/options.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cstdio>
+
+namespace hcsp::tool {
+
+namespace {
+
+constexpr int kWrongUsage = 2;
+
+// Options of the language's page that later versions bring.
+struct Later {
+  std::string memory_limit, precision, checkpoint, resume;
+  bool format = false;
+};
+
+struct Written {
+  std::vector<std::string> parameters;
+  std::vector<std::string> data;
+};
+
+void declare(CLI::App& app, Options& options, Written& written, Later& later) {
+  app.add_option("MODEL", options.model, "The model, a .hcsp file")->option_text(" ");
+  app.add_option("--set", written.parameters, "NAME=VALUE: replace the value of a param (may repeat)")
+      ->allow_extra_args(false)
+      ->option_text("NAME=VALUE");
+  app.add_option("--data", written.data, "NAME=FILE: replace the file of a data item (may repeat)")
+      ->allow_extra_args(false)
+      ->option_text("NAME=FILE");
+  app.add_option("-o,--output", options.outputs,
+                 "Write the result, in the format of the ending: .json .csv .svg .html (may repeat)")
+      ->allow_extra_args(false)
+      ->option_text("FILE");
+  app.add_option("--threads", options.threads, "Threads to use")
+      ->check(CLI::Range(1U, 1024U))
+      ->option_text("N");
+  app.add_option("--time-limit", options.time_limit, "Stop after S seconds; the domains are still guaranteed")
+      ->check(CLI::PositiveNumber)
+      ->option_text("S");
+  app.add_option("--memory-limit", later.memory_limit, "Not supported yet")->option_text("MB");
+  app.add_option("--precision", later.precision, "Not supported yet")->option_text("P");
+  app.add_flag("--check", options.check_only, "Read and check the model and its data, solve nothing");
+  app.add_flag("--format", later.format, "Not supported yet");
+  app.add_option("--explain", options.explain, "Print the page of a diagnostic code, such as E101")
+      ->option_text("CODE");
+  app.add_option("--dump", options.dump, "Print a phase: ast or graph (types is not supported yet)")
+      ->check(CLI::IsMember({"ast", "types", "graph"}))
+      ->option_text("PHASE");
+  app.add_option("--graph", options.graph, "Draw the contractor graph: .dot or .svg")->option_text("FILE");
+  app.add_option("--trace", options.trace, "Write what each contractor removed in each pass")
+      ->option_text("FILE.json");
+  app.add_option("--truth", options.truth, "True trajectories to draw: columns t, x1, x2, ...")
+      ->option_text("FILE.csv");
+  app.add_option("--checkpoint", later.checkpoint, "Not supported yet")->option_text("FILE");
+  app.add_option("--resume", later.resume, "Not supported yet")->option_text("FILE");
+  app.add_flag("--quiet", options.quiet, "Print nothing but errors");
+  app.set_version_flag("--version", "hcsp-solve " HCSP_VERSION);
+  app.footer(
+      "Exit status: 0 the run came to its end (its status says whether feasible), 1 the model or its data is "
+      "wrong or\n"
+      "a file cannot be written, 2 wrong usage, 3 stopped by a limit or Ctrl-C (what was computed is "
+      "written).");
+}
+
+// NAME=TEXT, into a map.
+bool split(const std::vector<std::string>& written, std::string_view option,
+           std::map<std::string, std::string>& map) {
+  for (const std::string& text : written) {
+    const std::size_t equals = text.find('=');
+    if (equals == std::string::npos || equals == 0 || equals + 1 == text.size()) {
+      fmt::print(stderr, "hcsp-solve: {} takes NAME=VALUE, not `{}`\n", option, text);
+      return false;
+    }
+    map[text.substr(0, equals)] = text.substr(equals + 1);
+  }
+  return true;
+}
+
+bool has_ending(const std::string& path, std::string_view option,
+                std::initializer_list<std::string_view> known) {
+  if (std::find(known.begin(), known.end(), extension(path)) != known.end()) return true;
+  fmt::print(stderr, "hcsp-solve: {} `{}`: the name has to end in {}\n", option, path,
+             fmt::join(known, ", "));
+  return false;
+}
+
+// What CLI11 cannot check.
+bool is_usable(const Options& options, const Later& later) {
+  const std::array<std::pair<bool, std::string_view>, 6> missing{
+      {{!later.memory_limit.empty(), "--memory-limit"},
+       {!later.precision.empty(), "--precision"},
+       {later.format, "--format"},
+       {!later.checkpoint.empty(), "--checkpoint"},
+       {!later.resume.empty(), "--resume"},
+       {options.dump == "types", "--dump types"}}};
+  for (const auto& [asked, name] : missing) {
+    if (!asked) continue;
+    fmt::print(stderr, "hcsp-solve: {} is not supported yet\n", name);
+    return false;
+  }
+  if (options.explain.empty() && options.model.empty()) {
+    fmt::print(stderr, "hcsp-solve: which model? Try hcsp-solve --help\n");
+    return false;
+  }
+  const bool outputs =
+      std::all_of(options.outputs.begin(), options.outputs.end(), [](const std::string& path) {
+        return has_ending(path, "-o", {".json", ".csv", ".svg", ".html"});
+      });
+  return outputs && (options.graph.empty() || has_ending(options.graph, "--graph", {".dot", ".svg"}));
+}
+
+}  // namespace
+
+std::string extension(const std::string& path) {
+  const std::size_t dot = path.rfind('.');
+  std::string ending = dot == std::string::npos ? "" : path.substr(dot);
+  for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return ending;
+}
+
+ParsedOptions parse_options(int argc, char** argv) {
+  Options options;
+  Written written;
+  Later later;
+  CLI::App app("Solves hybrid constraint problems with guaranteed answers.", "hcsp-solve");
+  declare(app, options, written, later);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() == 0) return {{}, app.exit(error)};
+    fmt::print(stderr, "hcsp-solve: {}\nTry hcsp-solve --help\n", error.what());
+    return {{}, kWrongUsage};
+  }
+  const bool good = is_usable(options, later) &&
+                    split(written.parameters, "--set", options.compile.parameters) &&
+                    split(written.data, "--data", options.compile.data_files);
+  if (!good) return {{}, kWrongUsage};
+  return {std::move(options), 0};
+}
+
+}  // namespace hcsp::tool

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lang/tool/run.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <atomic>
+#include <csignal>
+#include <cstdio>
+#include <fstream>
+
+#include "lang/data/file.h"
+#include "lang/tool/summary.h"
+#include "solver/report/csv.h"
+#include "solver/report/graph.h"
+#include "solver/report/html.h"
+#include "solver/report/json.h"
+#include "solver/report/svg.h"
+#include "solver/report/trace.h"
+
+namespace hcsp::tool {
+
+namespace {
+
+std::atomic<bool> stop_asked{false};
+
+// The first Ctrl-C ends the run with what it has, the next one the program.
+extern "C" void on_signal(int signal) {
+  stop_asked = true;
+  std::signal(signal, SIG_DFL);
+}
+
+bool write(const std::string& path, const std::string& text) {
+  std::ofstream stream(path, std::ios::binary);
+  stream.write(text.data(), static_cast<std::streamsize>(text.size()));
+  stream.close();
+  if (stream) return true;
+  fmt::print(stderr, "hcsp-solve: cannot write {}\n", path);
+  return false;
+}
+
+// Better to learn it before the run than after.
+bool can_write(const std::string& path) {
+  if (path.empty() || std::ofstream(path, std::ios::app)) return true;
+  fmt::print(stderr, "hcsp-solve: cannot write {}\n", path);
+  return false;
+}
+
+std::string written_as(const std::string& path, const Result& result, const Presentation& presentation) {
+  const std::string ending = extension(path);
+  if (ending == ".csv") return to_csv(result);
+  if (ending == ".svg") return to_svg(result, presentation);
+  if (ending == ".html") return to_html(result, presentation);
+  return to_json(result);
+}
+
+bool draw_graph(const Options& options, const ContractorGraph& graph) {
+  if (options.dump == "graph") fmt::print("{}", to_dot(graph));
+  if (options.graph.empty()) return true;
+  return write(options.graph, extension(options.graph) == ".dot" ? to_dot(graph) : graph_svg(graph));
+}
+
+PropagationOptions propagation_options(const Options& options, double data_seconds) {
+  PropagationOptions propagation;
+  propagation.threads = options.threads;
+  propagation.time_limit = options.time_limit;
+  propagation.spent_before = data_seconds;
+  propagation.cancel = &stop_asked;
+  propagation.keep_trace = !options.trace.empty();
+  propagation.keep_snapshots =
+      std::any_of(options.outputs.begin(), options.outputs.end(),
+                  [](const std::string& path) { return extension(path) == ".html"; });
+  if (!options.quiet && isatty(STDERR_FILENO) != 0) {
+    propagation.progress = [](std::uint64_t pass, double seconds) {
+      constexpr double kWorthTelling = 0.5;
+      if (seconds > kWorthTelling) fmt::print(stderr, "\rpass {}, {:.1f} s", pass, seconds);
+    };
+  }
+  return propagation;
+}
+
+bool write_outputs(const Options& options, const Result& result, Presentation presentation) {
+  if (!options.truth.empty()) {
+    std::string error;
+    const auto text = lang::read_file(options.truth, error);
+    if (text) presentation.truth = read_truth(*text, result, error);
+    if (!presentation.truth) {
+      fmt::print(stderr, "hcsp-solve: --truth {}: {}\n", options.truth, error);
+      return false;
+    }
+  }
+  bool good = true;
+  for (const std::string& path : options.outputs)
+    good = write(path, written_as(path, result, presentation)) && good;
+  if (!options.trace.empty()) good = write(options.trace, trace_json(result)) && good;
+  return good;
+}
+
+int solve(const Options& options, lang::CompiledModel& model) {
+  const bool writable =
+      std::all_of(options.outputs.begin(), options.outputs.end(), can_write) && can_write(options.trace);
+  if (!writable) return kWrongInput;
+  std::signal(SIGINT, on_signal);
+  std::signal(SIGTERM, on_signal);
+  const PropagationOptions propagation = propagation_options(options, model.data_seconds);
+  const Result result = model.problem->propagate(propagation);
+  if (propagation.progress) fmt::print(stderr, "\r\033[K");
+  if (!options.quiet) fmt::print("{}", summary(result, model.shown));
+  if (!write_outputs(options, result, {model.shown, {}})) return kWrongInput;
+  return result.status == Status::limit ? kStopped : kFinished;
+}
+
+int explain(const std::string& code) {
+  const std::string page = lang::explanation_page(code);
+  if (page.empty()) {
+    fmt::print(stderr, "hcsp-solve: there is no diagnostic {}\n", code);
+    return kWrongUsage;
+  }
+  fmt::print("{}", page);
+  return kFinished;
+}
+
+}  // namespace
+
+int run(const Options& options) {
+  if (!options.explain.empty()) return explain(options.explain);
+  lang::Compilation compilation = lang::compile_file(options.model, options.compile);
+  if (options.dump == "ast") fmt::print("{}", lang::dump(*compilation.tree));
+  if (!compilation.model) {
+    fmt::print(stderr, "{}", compilation.diagnostics.text());
+    return kWrongInput;
+  }
+  if (!draw_graph(options, compilation.model->problem->graph())) return kWrongInput;
+  if (options.check_only || !options.dump.empty()) return kFinished;
+  return solve(options, *compilation.model);
+}
+
+}  // namespace hcsp::tool

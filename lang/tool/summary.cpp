@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lang/tool/summary.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "solver/report/text.h"
+
+namespace hcsp::tool {
+
+namespace {
+
+using report::for_people;
+
+// The widths of a tube's items of one sort, a vector's widest component each.
+struct Widths {
+  std::size_t count = 0;
+  std::size_t unbounded = 0;
+  double sum = 0.0;
+  double largest = 0.0;
+
+  void add(double width) {
+    ++count;
+    if (!std::isfinite(width)) {
+      ++unbounded;
+      return;
+    }
+    sum += width;
+    largest = std::max(largest, width);
+  }
+  [[nodiscard]] std::string text(std::string_view sort) const {
+    if (unbounded == count) return fmt::format("{} unbounded", sort);
+    const double mean = sum / static_cast<double>(count - unbounded);
+    std::string text = fmt::format("{} mean width {}, max {}", sort, for_people(mean), for_people(largest));
+    if (unbounded > 0) text += fmt::format(" ({} of {} unbounded)", unbounded, count);
+    return text;
+  }
+};
+
+std::string line(const Tube& tube) {
+  Widths slices;
+  Widths gates;
+  for (std::size_t item = 0; item < tube.items(); ++item) {
+    double width = 0.0;
+    for (std::size_t c = 0; c < tube.dim(); ++c) width = std::max(width, tube.at(c, item).width());
+    (item % 2 == 0 ? gates : slices).add(width);
+  }
+  return fmt::format("{}; {}", slices.text("slices"), gates.text("gates"));
+}
+
+std::string line(const Interval& interval) { return to_string(interval); }
+std::string line(const Box& box) { return to_string(box); }
+std::string line(const SetInterval& set) {
+  return fmt::format("volume in [{}, {}]", for_people(set.lower_volume()), for_people(set.upper_volume()));
+}
+
+void explain(const Explanation& why, std::string& text) {
+  text += fmt::format("no solution: `{}` leaves nothing of `{}`", why.constraint, why.variable);
+  if (why.time) {
+    const auto [from, to] = *why.time;
+    text += from == to ? fmt::format(" at t = {}", from) : fmt::format(" for t in [{}, {}]", from, to);
+  }
+  text += '\n';
+  if (why.support.empty()) return;
+  constexpr std::size_t kShown = 5;
+  text += fmt::format("jointly inconsistent{}: {} reading{}\n",
+                      why.support_is_complete ? "" : " (stopped before the smallest was found)",
+                      why.support.size(), why.support.size() == 1 ? "" : "s");
+  for (std::size_t i = 0; i < std::min(why.support.size(), kShown); ++i) {
+    const SupportingReading& reading = why.support[i];
+    text += fmt::format("  {}({}){}{}\n", reading.variable, reading.time, reading.source.empty() ? "" : "  ",
+                        reading.source);
+  }
+  if (why.support.size() > kShown) text += fmt::format("  and {} more\n", why.support.size() - kShown);
+}
+
+}  // namespace
+
+std::string summary(const Result& result, const std::vector<std::string>& shown) {
+  std::string text = fmt::format("{}: {} in {:.4g} s, {} pass{}\n", result.model, to_string(result.status),
+                                 result.statistics.seconds, result.statistics.passes,
+                                 result.statistics.passes == 1 ? "" : "es");
+  if (result.explanation) explain(*result.explanation, text);
+  if (result.status == Status::infeasible) return text;
+  std::vector<const ResultVariable*> listed;
+  for (const std::string& name : shown) {
+    const auto found = std::find_if(result.variables.begin(), result.variables.end(),
+                                    [&](const ResultVariable& variable) { return variable.name == name; });
+    if (found != result.variables.end()) listed.push_back(&*found);
+  }
+  if (shown.empty()) {
+    for (const ResultVariable& variable : result.variables) listed.push_back(&variable);
+  }
+  std::size_t longest = 0;
+  for (const ResultVariable* variable : listed) longest = std::max(longest, variable->name.size());
+  for (const ResultVariable* variable : listed) {
+    const std::string domain =
+        variable->is_empty() ? "empty" : std::visit([](const auto& d) { return line(d); }, variable->domain);
+    text += fmt::format("  {:<{}}  {}\n", variable->name, longest, domain);
+  }
+  return text;
+}
+
+}  // namespace hcsp::tool

@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "solver/report/json.h"
+
+#include <algorithm>
+#include <span>
+
+#include "solver/report/text.h"
+
+namespace hcsp {
+
+namespace {
+
+using report::NumberTexts;
+using report::put;
+using report::put_json_number;
+using report::put_json_string;
+using report::TextBuffer;
+
+void put_key(TextBuffer& out, std::string_view key) {
+  put_json_string(out, key);
+  put(out, ": ");
+}
+
+// A number of the long arrays.
+void put_number(TextBuffer& out, NumberTexts& texts, double value) {
+  const std::string_view text = texts.of(value);
+  if (text.back() != 'o') return put(out, text);
+  put(out, '"');
+  put(out, text);
+  put(out, '"');
+}
+
+// [f(0), f(1), ...], each written by write(i).
+template <class Write>
+void put_list(TextBuffer& out, std::size_t size, Write write) {
+  put(out, '[');
+  for (std::size_t i = 0; i < size; ++i) {
+    if (i != 0) put(out, ',');
+    write(i);
+  }
+  put(out, ']');
+}
+
+void put_numbers(TextBuffer& out, NumberTexts& texts, std::span<const double> values) {
+  put_list(out, values.size(), [&](std::size_t i) { put_number(out, texts, values[i]); });
+}
+
+void put_domain(TextBuffer& out, NumberTexts&, const Interval& x) {
+  put(out, R"("kind": "real", "lo": )");
+  put_json_number(out, x.lo());
+  put(out, R"(, "hi": )");
+  put_json_number(out, x.hi());
+}
+
+void put_domain(TextBuffer& out, NumberTexts&, const Box& x) {
+  const auto component = [&](std::size_t i) -> const Interval& { return x[static_cast<Eigen::Index>(i)]; };
+  const auto dim = static_cast<std::size_t>(x.dim());
+  put(out, R"("kind": "vector", "lo": )");
+  put_list(out, dim, [&](std::size_t i) { put_json_number(out, component(i).lo()); });
+  put(out, R"(, "hi": )");
+  put_list(out, dim, [&](std::size_t i) { put_json_number(out, component(i).hi()); });
+}
+
+// Rows of components, of every second item from `first` on: the gates from 0, the slices from 1.
+void put_items(TextBuffer& out, NumberTexts& texts, const Tube& x, std::size_t first) {
+  const std::size_t rows = (x.items() - first + 1) / 2;
+  const auto put_bound = [&](const double* (Tube::*bound)(std::size_t) const) {
+    put_list(out, rows, [&](std::size_t row) {
+      put_list(out, x.dim(), [&](std::size_t c) { put_number(out, texts, (x.*bound)(c)[2 * row + first]); });
+    });
+  };
+  put(out, R"({"lo": )");
+  put_bound(&Tube::lo);
+  put(out, R"(, "hi": )");
+  put_bound(&Tube::hi);
+  put(out, '}');
+}
+
+void put_domain(TextBuffer& out, NumberTexts& texts, const Tube& x) {
+  fmt::format_to(fmt::appender(out), R"("kind": "tube", "dim": {}, "time": )", x.dim());
+  put_numbers(out, texts, x.line().instants());
+  put(out, ",\n      \"gates\": ");
+  put_items(out, texts, x, 0);
+  put(out, ",\n      \"slices\": ");
+  put_items(out, texts, x, 1);
+}
+
+void put_boxes(TextBuffer& out, NumberTexts& texts, const SetInterval& x, CellState state) {
+  const std::vector<std::vector<double>> boxes = x.boxes(state);
+  put_list(out, boxes.size(), [&](std::size_t i) { put_numbers(out, texts, boxes[i]); });
+}
+
+void put_domain(TextBuffer& out, NumberTexts& texts, const SetInterval& x) {
+  fmt::format_to(fmt::appender(out), R"("kind": "set", "dim": {}, "precision": )", x.dim());
+  put_json_number(out, x.precision());
+  fmt::format_to(fmt::appender(out), R"(, "background": "{}")",
+                 x.background() == CellState::outside  ? "outside"
+                 : x.background() == CellState::inside ? "inside"
+                                                       : "unknown");
+  put(out, ",\n      \"inside\": ");
+  put_boxes(out, texts, x, CellState::inside);
+  put(out, ",\n      \"unknown\": ");
+  put_boxes(out, texts, x, CellState::unknown);
+  put(out, ",\n      \"volume\": {\"lower\": ");
+  put_json_number(out, x.lower_volume());
+  put(out, R"(, "upper": )");
+  put_json_number(out, x.upper_volume());
+  put(out, '}');
+}
+
+void put_variables(TextBuffer& out, NumberTexts& texts, const std::vector<ResultVariable>& variables) {
+  put(out, "  \"variables\": {");
+  for (const ResultVariable& variable : variables) {
+    put(out, &variable == variables.data() ? "\n    " : ",\n    ");
+    put_key(out, variable.name);
+    if (variable.is_empty()) {
+      put(out, "null");
+      continue;
+    }
+    put(out, "{ ");
+    std::visit([&](const auto& domain) { put_domain(out, texts, domain); }, variable.domain);
+    put(out, " }");
+  }
+  put(out, variables.empty() ? "},\n" : "\n  },\n");
+}
+
+void put_explanation(TextBuffer& out, NumberTexts& texts, const Explanation& why) {
+  put(out, "  \"explanation\": {\n    \"constraint\": ");
+  put_json_string(out, why.constraint);
+  put(out, ", \"variable\": ");
+  put_json_string(out, why.variable);
+  if (why.time) {
+    put(out, ", \"time\": ");
+    put_numbers(out, texts, *why.time);
+  }
+  std::vector<double> instants;
+  for (const SupportingReading& reading : why.support) instants.push_back(reading.time);
+  std::sort(instants.begin(), instants.end());
+  instants.erase(std::unique(instants.begin(), instants.end()), instants.end());
+  put(out, ",\n    \"support\": ");
+  put_numbers(out, texts, instants);
+  put(out,
+      why.support_is_complete ? R"(, "support_is_complete": true)" : R"(, "support_is_complete": false)");
+  put(out, ",\n    \"readings\": ");
+  put_list(out, why.support.size(), [&](std::size_t i) {
+    put(out, "\n      { \"variable\": ");
+    put_json_string(out, why.support[i].variable);
+    put(out, ", \"time\": ");
+    put_json_number(out, why.support[i].time);
+    put(out, ", \"source\": ");
+    put_json_string(out, why.support[i].source);
+    put(out, " }");
+  });
+  put(out, "\n  },\n");
+}
+
+// A name that several contractors share is one entry: an object of JSON has no name twice.
+std::vector<ContractorStatistics> by_name(const std::vector<ContractorStatistics>& all) {
+  std::vector<ContractorStatistics> merged;
+  for (const ContractorStatistics& entry : all) {
+    const auto same =
+        std::find_if(merged.begin(), merged.end(), [&](const auto& m) { return m.name == entry.name; });
+    if (same == merged.end()) {
+      merged.push_back(entry);
+    } else {
+      same->calls += entry.calls;
+      same->seconds += entry.seconds;
+    }
+  }
+  return merged;
+}
+
+void put_statistics(TextBuffer& out, const Statistics& statistics) {
+  put(out, "  \"statistics\": {\n    \"seconds\": ");
+  put_json_number(out, statistics.seconds);
+  fmt::format_to(fmt::appender(out), ", \"passes\": {}, \"threads\": {},\n    \"contractors\": {{",
+                 statistics.passes, statistics.threads);
+  bool first = true;
+  for (const ContractorStatistics& contractor : by_name(statistics.contractors)) {
+    put(out, first ? "\n      " : ",\n      ");
+    first = false;
+    put_key(out, contractor.name);
+    fmt::format_to(fmt::appender(out), R"({{ "calls": {}, "seconds": )", contractor.calls);
+    put_json_number(out, contractor.seconds);
+    put(out, " }");
+  }
+  put(out, "\n    }\n  }\n");
+}
+
+}  // namespace
+
+std::string to_json(const Result& result) {
+  TextBuffer out;
+  NumberTexts texts;
+  put(out, "{ \"hcsp\": \"" HCSP_VERSION "\", \"model\": ");
+  put_json_string(out, result.model);
+  put(out, ",\n  \"status\": ");
+  put_json_string(out, to_string(result.status));
+  put(out, ",\n");
+  put_variables(out, texts, result.variables);
+  if (result.explanation) put_explanation(out, texts, *result.explanation);
+  put_statistics(out, result.statistics);
+  put(out, "}\n");
+  return report::to_text(out);
+}
+
+}  // namespace hcsp

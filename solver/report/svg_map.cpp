@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+
+#include "solver/report/svg_parts.h"
+
+namespace hcsp::report {
+
+namespace {
+
+constexpr std::array<const char*, 4> kSetColors = {"#4fa9dc", "#e3a01b", "#2a9d7c", "#c878a6"};
+constexpr double kInsideOpacity = 0.55;
+constexpr double kUnknownOpacity = 0.17;
+
+const SetInterval* plane_set(const ResultVariable& variable) {
+  const auto* set = std::get_if<SetInterval>(&variable.domain);
+  return set != nullptr && set->dim() == 2 && !set->is_empty() ? set : nullptr;
+}
+
+// The state that fills the space beyond what boxes() reaches.
+bool is_bounded(const SetInterval& set) { return set.background() == CellState::outside; }
+
+// The cells of one state of one set, as the map shows them.
+struct Layer {
+  const SetInterval* set;
+  CellState state;
+  std::string color;
+  std::vector<std::vector<double>> boxes;
+};
+
+// All that is known of every set; what is open of the bounded ones, or of all if none is bounded.
+std::vector<Layer> layers_of(const std::vector<const ResultVariable*>& shown, std::vector<Key>& keys) {
+  std::vector<Layer> layers;
+  const bool some_bounded = std::any_of(shown.begin(), shown.end(), [](const ResultVariable* variable) {
+    const SetInterval* set = plane_set(*variable);
+    return set != nullptr && is_bounded(*set);
+  });
+  std::size_t count = 0;
+  for (const ResultVariable* variable : shown) {
+    const SetInterval* set = plane_set(*variable);
+    if (set == nullptr) continue;
+    const char* color = kSetColors[count++ % kSetColors.size()];
+    auto inside = set->boxes(CellState::inside);
+    if (!inside.empty()) {
+      layers.push_back({set, CellState::inside, color, std::move(inside)});
+      keys.push_back({variable->name + " inside", color, kInsideOpacity + 0.2});
+    }
+    if (!is_bounded(*set) && some_bounded) continue;
+    layers.push_back({set, CellState::unknown, color, set->boxes(CellState::unknown)});
+    keys.push_back({variable->name + " unknown", color, kUnknownOpacity + 0.15});
+  }
+  return layers;
+}
+
+const ResultVariable* leading_tube(const std::vector<const ResultVariable*>& shown,
+                                   const Presentation& presentation) {
+  const ResultVariable* leading = nullptr;
+  for (const ResultVariable* variable : shown) {
+    const auto* tube = std::get_if<Tube>(&variable->domain);
+    if (tube == nullptr || tube->dim() < 2 || tube->is_empty()) continue;
+    const bool has_truth = presentation.truth && presentation.truth->tubes.contains(variable->name);
+    if (has_truth) return variable;
+    if (leading == nullptr) leading = variable;
+  }
+  return leading;
+}
+
+const std::vector<std::vector<double>>* truth_of(const ResultVariable* tube,
+                                                 const Presentation& presentation) {
+  if (tube == nullptr || !presentation.truth) return nullptr;
+  const auto found = presentation.truth->tubes.find(tube->name);
+  return found == presentation.truth->tubes.end() ? nullptr : &found->second;
+}
+
+// A plot of equal scale on both axes around everything that is bounded.
+Plot frame_of(double left, double top, double edge, const std::vector<Layer>& layers,
+              const ResultVariable* leading, const std::vector<std::vector<double>>* truth) {
+  Extent xs, ys;
+  for (const Layer& layer : layers) {
+    if (layer.state == CellState::unknown && !is_bounded(*layer.set)) continue;
+    for (const std::vector<double>& box : layer.boxes) {
+      for (const std::size_t i : {0U, 1U}) {
+        xs.add(box[i]);
+        ys.add(box[2 + i]);
+      }
+    }
+  }
+  if (leading != nullptr) {
+    const Tube& tube = std::get<Tube>(leading->domain);
+    for (std::size_t item = 0; item < tube.items(); ++item) {
+      xs.add(tube.lo(0)[item]);
+      xs.add(tube.hi(0)[item]);
+      ys.add(tube.lo(1)[item]);
+      ys.add(tube.hi(1)[item]);
+    }
+  }
+  if (truth != nullptr) {
+    for (const std::vector<double>& row : *truth) {
+      xs.add(row[0]);
+      ys.add(row[1]);
+    }
+  }
+  std::array<double, 2> x = xs.range(0.03);
+  std::array<double, 2> y = ys.range(0.03);
+  const double grow = ((x[1] - x[0]) - (y[1] - y[0])) / 2;
+  std::array<double, 2>& narrow = grow > 0 ? y : x;
+  narrow = {narrow[0] - std::abs(grow), narrow[1] + std::abs(grow)};
+  return {left, top, edge, edge, x, y};
+}
+
+void put_rectangle(TextBuffer& out, const Plot& plot, double x0, double x1, double y0, double y1,
+                   double least = 0.0) {
+  const double left = plot.x(x0);
+  const double top = plot.y(y1);
+  const double width = std::max(plot.x(x1) - left, least);
+  const double height = std::max(plot.y(y0) - top, least);
+  if (width > 0 && height > 0) {
+    fmt::format_to(fmt::appender(out), "M{:.2f} {:.2f}h{:.2f}v{:.2f}h-{:.2f}z", left, top, width, height,
+                   width);
+  }
+}
+
+// The boxes; and if the state fills the space beyond, the plot without the hull of what the tree reaches.
+void put_layer(TextBuffer& out, const Plot& plot, const Layer& layer) {
+  const double opacity = layer.state == CellState::inside ? kInsideOpacity : kUnknownOpacity;
+  fmt::format_to(fmt::appender(out),
+                 R"(<path shape-rendering="crispEdges" fill-rule="evenodd" fill="{}" fill-opacity="{}" d=")",
+                 layer.color, opacity);
+  for (const std::vector<double>& box : layer.boxes) put_rectangle(out, plot, box[0], box[1], box[2], box[3]);
+  if (layer.set->background() == layer.state) {
+    const Region reach = layer.set->reach();
+    const double h = layer.set->precision();
+    const auto bound = [&](std::int64_t cell) { return static_cast<double>(cell) * h; };
+    put_rectangle(out, plot, -kInfinity, kInfinity, -kInfinity, kInfinity);
+    put_rectangle(out, plot, bound(reach.lo[0]), bound(reach.hi[0]), bound(reach.lo[1]), bound(reach.hi[1]));
+  }
+  put(out, "\"/>\n");
+}
+
+// The outlines of all slices under their union: what remains is the outline of the union.
+void put_tube(TextBuffer& out, const Plot& plot, const Tube& tube) {
+  put(out, R"(<defs><path id="slices" d=")");
+  for (std::size_t k = 0; k < tube.line().slices(); ++k) {
+    const Interval x = tube.slice(0, k);
+    const Interval y = tube.slice(1, k);
+    if (x.is_entire() || y.is_entire()) continue;
+    put_rectangle(out, plot, x.lo(), x.hi(), y.lo(), y.hi(), 0.5);
+  }
+  put(out, "\"/></defs><use href=\"#slices\" class=\"tube\"/><use href=\"#slices\" class=\"tube-fill\"/>\n");
+}
+
+}  // namespace
+
+bool has_map(const std::vector<const ResultVariable*>& shown) {
+  return leading_tube(shown, {}) != nullptr ||
+         std::any_of(shown.begin(), shown.end(),
+                     [](const ResultVariable* v) { return plane_set(*v) != nullptr; });
+}
+
+void put_map(TextBuffer& out, double left, double top, double edge,
+             const std::vector<const ResultVariable*>& shown, const Presentation& presentation) {
+  std::vector<Key> keys;
+  const std::vector<Layer> layers = layers_of(shown, keys);
+  const ResultVariable* leading = leading_tube(shown, presentation);
+  const std::vector<std::vector<double>>* truth = truth_of(leading, presentation);
+  const Plot plot = frame_of(left, top, edge, layers, leading, truth);
+  open_clipped(out, plot, 0);
+  for (const CellState state : {CellState::unknown, CellState::inside}) {
+    for (const Layer& layer : layers) {
+      if (layer.state == state) put_layer(out, plot, layer);
+    }
+  }
+  if (leading != nullptr) {
+    put_tube(out, plot, std::get<Tube>(leading->domain));
+    keys.push_back({leading->name, "#5d7fa6"});
+  }
+  if (truth != nullptr) {
+    std::vector<double> xs, ys;
+    for (const std::vector<double>& row : *truth) {
+      xs.push_back(row[0]);
+      ys.push_back(row[1]);
+    }
+    put_truth_line(out, plot, xs, ys);
+    keys.push_back({"true " + leading->name, "#d5480b", 1.0, true});
+  }
+  put(out, "</g>\n");
+  std::string name = leading != nullptr ? leading->name : "";
+  for (const ResultVariable* variable : shown) {
+    if (name.empty() && plane_set(*variable) != nullptr) name = variable->name;
+  }
+  put_axes(out, plot, name + "[1]", name + "[2]");
+  put_legend(out, left, top + edge + 50, edge, keys);
+}
+
+}  // namespace hcsp::report
