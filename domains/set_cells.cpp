@@ -112,6 +112,7 @@ double SetInterval::upper_volume() const {
 
 double measure(const SetInterval& a) {
   if (a.is_empty()) return 0.0;
+  if (a.background() == CellState::unknown) return kInfinity;
   double open = 0.0;
   for (const std::vector<double>& box : a.boxes(CellState::unknown)) {
     double volume = 1.0;

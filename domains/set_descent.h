@@ -52,14 +52,21 @@ template <bool kInclude, class Zone>
 void SetInterval::descend_node(std::uint32_t node, std::int64_t child_edge, const CellIndex& origin,
                                const Region& bounds, Zone& zone, Region& delta) {
   if constexpr (requires { zone.decide_children(origin, child_edge); }) {
-    const std::uint64_t open = kInclude ? ~nodes_[node].lower : nodes_[node].upper;
+    std::uint64_t open = kInclude ? ~nodes_[node].lower : nodes_[node].upper;
+    std::uint64_t whole = open;
+    if (!bounds.holds(Region::block(origin, child_edge << axis_bits(), dim()), dim())) {
+      whole &= children_within(bounds, origin, child_edge, true);
+      open &= children_within(bounds, origin, child_edge, false);
+    }
+    if (open == 0) return;
     const ChildDecisions decisions = zone.decide_children(origin, child_edge);
-    if (const std::uint64_t all = decisions.all & open; all != 0) {
+    const std::uint64_t all = decisions.all & whole;
+    if (all != 0) {
       settle<kInclude>(node, all);
       delta.join(bounds_of(all, origin, child_edge));
     }
     if (child_edge == 1) return;
-    for (std::uint64_t rest = decisions.some & open & ~decisions.all; rest != 0 && !empty_; rest &= rest - 1) {
+    for (std::uint64_t rest = (decisions.some | decisions.all) & open & ~all; rest != 0 && !empty_; rest &= rest - 1) {
       const int bit = __builtin_ctzll(rest);
       const CellIndex lo = child_place(origin, child_edge, bit);
       descend_node<kInclude>(child(node, bit), child_edge >> axis_bits(), lo, bounds, zone, delta);
@@ -76,11 +83,12 @@ void SetInterval::descend(std::uint32_t node, std::int64_t child_edge, const Cel
   const std::uint64_t mask = part_mask(part, bit);
   const std::uint64_t open = mask & (kInclude ? ~nodes_[node].lower : nodes_[node].upper);
   if (open == 0 || empty_) return;
-  const Region cells = bounds_of(open, origin, child_edge);
-  if (!bounds.meets(cells, dim())) return;
+  const Region around = bounds_of(open, origin, child_edge);
+  if (!bounds.meets(around, dim())) return;
+  const Region cells = around.common(bounds, dim());
   const Decision decision = zone.decide(cells);
   if (decision == Decision::none) return;
-  if (decision == Decision::all) {
+  if (decision == Decision::all && bounds.holds(around, dim())) {
     settle<kInclude>(node, open);
     delta.join(cells);
     return;

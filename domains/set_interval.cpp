@@ -22,9 +22,12 @@ CellState state_of(const Planes& planes, int bit) {
   return lower ? (upper ? CellState::inside : CellState::contradiction) : (upper ? CellState::unknown : CellState::outside);
 }
 
+// The lowest bits, one a layer along an axis.
+constexpr std::uint64_t mask_of_layers(std::int64_t side) { return side == 64 ? kAll : (std::uint64_t{1} << side) - 1; }
+
 // The part of a block's cells at the origin of its node, as a mask of children: part children along an axis.
 constexpr std::uint64_t mask_at_origin(std::size_t dim, int axis_bits, std::int64_t part) {
-  std::uint64_t mask = part == 64 ? kAll : (std::uint64_t{1} << part) - 1;
+  std::uint64_t mask = mask_of_layers(part);
   for (std::size_t axis = 1; axis < dim; ++axis) {
     const std::uint64_t row = mask;
     const int stride = axis_bits * static_cast<int>(axis);
@@ -98,6 +101,22 @@ bool Region::meets(const Region& other, std::size_t dim) const {
     if (other.lo[axis] >= hi[axis] || other.hi[axis] <= lo[axis]) return false;
   }
   return true;
+}
+
+bool Region::holds(const Region& other, std::size_t dim) const {
+  for (std::size_t axis = 0; axis < dim; ++axis) {
+    if (other.lo[axis] < lo[axis] || other.hi[axis] > hi[axis]) return false;
+  }
+  return true;
+}
+
+Region Region::common(const Region& other, std::size_t dim) const {
+  Region both;
+  for (std::size_t axis = 0; axis < dim; ++axis) {
+    both.lo[axis] = std::max(lo[axis], other.lo[axis]);
+    both.hi[axis] = std::min(hi[axis], other.hi[axis]);
+  }
+  return both;
 }
 
 Region Region::block(const CellIndex& lo, std::int64_t edge, std::size_t dim) {
@@ -214,6 +233,28 @@ void SetInterval::sum_up(Block& block) const {
       block.node = kNoNode;
     }
   }
+}
+
+// The children of a node that meet a box of cells, or lie wholly in it.
+std::uint64_t SetInterval::children_within(const Region& bounds, const CellIndex& origin, std::int64_t child_edge,
+                                           bool wholly) const {
+  std::uint64_t children = kAll;
+  for (std::size_t axis = 0; axis < dim(); ++axis) {
+    std::uint64_t layers = 0;  // of this axis alone
+    for (std::int64_t i = 0; i < side(); ++i) {
+      const std::int64_t lo = origin[axis] + i * child_edge, hi = lo + child_edge;
+      const bool in = wholly ? bounds.lo[axis] <= lo && hi <= bounds.hi[axis] : lo < bounds.hi[axis] && hi > bounds.lo[axis];
+      layers |= static_cast<std::uint64_t>(in) << i;
+    }
+    if (layers == mask_of_layers(side())) continue;
+    std::uint64_t kept = 0;
+    for (int bit = 0; bit < 64; ++bit) {
+      const int digit = (bit >> (axis_bits() * static_cast<int>(axis))) & static_cast<int>(side() - 1);
+      kept |= ((layers >> digit) & 1U) << bit;
+    }
+    children &= kept;
+  }
+  return children;
 }
 
 // The box around some children of a node: layer by layer along the last axis, then all layers folded into one.

@@ -35,6 +35,9 @@ struct Region {
   [[nodiscard]] bool is_none() const { return !has_cells() && !beyond; }
   void join(const Region& other);
   [[nodiscard]] bool meets(const Region& other, std::size_t dim) const;
+  [[nodiscard]] bool holds(const Region& other, std::size_t dim) const;
+  /// The cells that are in both; the regions meet.
+  [[nodiscard]] Region common(const Region& other, std::size_t dim) const;
   /// The cubic block of edge^dim cells from lo.
   [[nodiscard]] static Region block(const CellIndex& lo, std::int64_t edge, std::size_t dim);
 };
@@ -130,6 +133,8 @@ class SetInterval {
   [[nodiscard]] std::uint64_t part_mask(std::int64_t part, int bit) const;
   [[nodiscard]] CellIndex child_place(const CellIndex& origin, std::int64_t child_edge, int bit) const;
   [[nodiscard]] int part_bit(std::int64_t part, int corner) const;
+  [[nodiscard]] std::uint64_t children_within(const Region& bounds, const CellIndex& origin, std::int64_t child_edge,
+                                              bool wholly) const;
   [[nodiscard]] Region bounds_of(std::uint64_t children, const CellIndex& origin, std::int64_t child_edge) const;
   [[nodiscard]] std::uint64_t mask_of_part(const Block& block, int corner) const;
   void sum_up(Block& block) const;
@@ -178,7 +183,7 @@ SetInterval top(const SetInterval& a);
 SetInterval bottom(const SetInterval& a);
 Region contract(SetInterval& a, const SetInterval& b);
 inline Region everything(const SetInterval&) { return SetInterval::everywhere(); }
-/// The volume that is left open, A+ without A-, as far as the tree reaches.
+/// The volume that is left open, A+ without A-; oo where the background is unknown.
 double measure(const SetInterval& a);
 
 // The arithmetic of set intervals (the paper's Fig. 5): [A] op [B] is the least set interval that holds A op B for all

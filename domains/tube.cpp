@@ -107,9 +107,21 @@ double measure(const Tube& a) {
   return sum / static_cast<double>(a.line().slices());
 }
 
-Tube hold(std::shared_ptr<const TimeLine> line, const std::vector<double>& stamps, const std::vector<Box>& values) {
-  require(stamps.size() == values.size() && !values.empty(), "hold: {} stamps for {} values", stamps.size(), values.size());
-  require(std::is_sorted(stamps.begin(), stamps.end()), "hold: stamps do not increase");
+namespace {
+
+void require_rows(const char* what, const std::vector<double>& stamps, const std::vector<Box>& values) {
+  require(stamps.size() == values.size() && !values.empty(), "{}: {} stamps for {} values", what, stamps.size(),
+          values.size());
+  for (std::size_t row = 0; row < stamps.size(); ++row) {
+    require(row == 0 || stamps[row - 1] < stamps[row], "{}: stamps {} and {} do not increase", what, row, row + 1);
+    require(values[row].dim() == values.front().dim(), "{}: row {} has another dimension", what, row + 1);
+  }
+}
+
+}  // namespace
+
+Tube hold(const std::shared_ptr<const TimeLine>& line, const std::vector<double>& stamps, const std::vector<Box>& values) {
+  require_rows("hold", stamps, values);
   Tube tube(line, static_cast<std::size_t>(values.front().dim()));
   // The rows that meet an item: the one that holds at its start, and those whose stamps lie inside it.
   std::size_t next = 0;  // the first row with a stamp after the item's start
@@ -124,9 +136,8 @@ Tube hold(std::shared_ptr<const TimeLine> line, const std::vector<double>& stamp
   return tube;
 }
 
-Tube sampled(std::shared_ptr<const TimeLine> line, const std::vector<double>& stamps, const std::vector<Box>& values) {
-  require(stamps.size() == values.size() && !values.empty(), "sampled: {} stamps for {} values", stamps.size(),
-          values.size());
+Tube sampled(const std::shared_ptr<const TimeLine>& line, const std::vector<double>& stamps, const std::vector<Box>& values) {
+  require_rows("sampled", stamps, values);
   Tube tube(line, static_cast<std::size_t>(values.front().dim()));
   for (std::size_t row = 0; row < stamps.size(); ++row) {
     const auto gate = line->gate_at(stamps[row]);

@@ -67,9 +67,9 @@ double measure(const Tube& a);
 /// A given tube that keeps each row's value from its stamp until the next stamp, the last until the end of the line;
 /// before the first stamp nothing is known. values[r] has the tube's dimension; stamps increase strictly.
 /// A slice that a stamp divides is bounded by the hull of the values that meet it.
-Tube hold(std::shared_ptr<const TimeLine> line, const std::vector<double>& stamps, const std::vector<Box>& values);
+Tube hold(const std::shared_ptr<const TimeLine>& line, const std::vector<double>& stamps, const std::vector<Box>& values);
 /// A given tube that is known at its stamps only, which must be instants of the line; nothing is known between them.
-Tube sampled(std::shared_ptr<const TimeLine> line, const std::vector<double>& stamps, const std::vector<Box>& values);
+Tube sampled(const std::shared_ptr<const TimeLine>& line, const std::vector<double>& stamps, const std::vector<Box>& values);
 
 static_assert(Lattice<Tube>);
 

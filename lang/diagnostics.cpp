@@ -79,9 +79,12 @@ std::string render(const Diagnostic& diagnostic) {
   const std::size_t start = range.source->line_start(place.line);
   const std::size_t begin = std::min<std::size_t>(range.begin - start, line.size());
   const std::size_t end = std::min<std::size_t>(std::max(range.end, range.begin) - start, line.size());
-  const Excerpt shown = excerpt(line, begin, end);
-  std::string text = fmt::format("{}:{}:{}: error[{}]: {}\n  {}\n  {}\n", range.source->name(), place.line,
-                                 place.column, id, diagnostic.message, shown.line, shown.carets);
+  std::string text = fmt::format("{}:{}:{}: error[{}]: {}\n", range.source->name(), place.line, place.column,
+                                 id, diagnostic.message);
+  if (!line.empty()) {
+    const Excerpt shown = excerpt(line, begin, end);
+    text += fmt::format("  {}\n  {}\n", shown.line, shown.carets);
+  }
   for (const std::string& note : diagnostic.notes) text += fmt::format("  {}\n", note);
   return text;
 }

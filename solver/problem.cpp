@@ -46,10 +46,21 @@ struct Problem::Impl {
     return vector;
   }
 
-  NodeId relation_of(Expr relation) const {
-    require(&relation.dag() == &dag, "Problem: the relation belongs to another problem");
-    require(is_boolean(dag[relation.node()].op), "Problem: the expression is no relation");
-    return relation.node();
+  // The node of an expression of this problem that uses no bound point beyond R^point_dim.
+  NodeId node_of(Expr expression, std::size_t point_dim = 0) const {
+    require(&expression.dag() == &dag, "Problem: the expression belongs to another problem");
+    const Program program(dag, {expression.node()});
+    for (const Input& input : program.inputs()) {
+      require(input.kind != Input::Kind::point || input.component < point_dim,
+              "Problem: the bound point's component {} is free here", input.component + 1);
+    }
+    return expression.node();
+  }
+
+  NodeId relation_of(Expr relation, std::size_t point_dim = 0) const {
+    const NodeId node = node_of(relation, point_dim);
+    require(is_boolean(dag[node].op), "Problem: the expression is no relation");
+    return node;
   }
 
   void need_line() const { require(line != nullptr, "Problem: set_time_line comes before the first tube"); }
@@ -126,14 +137,14 @@ void Problem::constrain_derivative(std::string name, TubeVariable x, const Vecto
   impl_->need_line();
   require(f.size() == x.dim, "Problem: der of a tube of dimension {} and {} components", x.dim, f.size());
   std::vector<NodeId> nodes;
-  for (const Expr& component : f) nodes.push_back(component.node());
+  for (const Expr& component : f) nodes.push_back(impl_->node_of(component));
   impl_->graph.add_contractor(
       make_derivative_contractor(std::move(name), x.id, x.dim, impl_->dag, nodes, impl_->context()));
 }
 
 void Problem::constrain_union(std::string name, SetVariable set, const SetBuilder& zone) {
   require(zone.dim == set.dim, "Problem: a zone of R^{} for a set of R^{}", zone.dim, set.dim);
-  impl_->graph.add_contractor(make_union_contractor(name, name, set.id, impl_->dag, impl_->relation_of(zone.relation),
+  impl_->graph.add_contractor(make_union_contractor(name, name, set.id, impl_->dag, impl_->relation_of(zone.relation, zone.dim),
                                                     impl_->context(), impl_->fast_paths));
 }
 
@@ -146,12 +157,14 @@ void Problem::constrain_disjoint(std::string name, SetVariable a, SetVariable b)
 void Problem::constrain_meets(std::string name, const SetBuilder& zone, SetVariable set) {
   require(zone.dim == set.dim, "Problem: a zone of R^{} for a set of R^{}", zone.dim, set.dim);
   impl_->graph.add_contractor(make_meets_contractor(name, name, set.id, set.dim, impl_->dag,
-                                                    impl_->relation_of(zone.relation), impl_->context(),
+                                                    impl_->relation_of(zone.relation, zone.dim), impl_->context(),
                                                     impl_->fast_paths));
 }
 
 void Problem::constrain_range(std::string name, Expr z, const VectorExpr& a, Expr delta, SetVariable map) {
   require(a.size() == map.dim, "Problem: a point of R^{} in a map of R^{}", a.size(), map.dim);
+  impl_->node_of(z);
+  impl_->node_of(delta, map.dim);
   const SetInterval& domain = impl_->graph.initial<SetInterval>(map.id);
   const VariableId dug = impl_->add(name + ".dug space", SetInterval(map.dim, domain.precision()), DomainKind::set, true);
   // Theorem 1 digs the open zone, delta < z: with the closed one it would contradict Theorem 2.

@@ -71,13 +71,18 @@ std::span<const CatalogueEntry> syntax_entries() {
                      "// model-less\nmodel m;\nvar x : real;", "model m;\nvar x : real;\nsolve propagate;"},
       CatalogueEntry{
           Code::too_large, "this grows to more than {} operations",
-          "Functions and lets are put in place of their names. Where each uses another twice, the model "
-          "doubles\n"
-          "at every level.",
-          "function f1(x : real) : real = x + x*x;\nfunction f2(x : real) : real = f1(x) + f1(f1(x));\n"
-          "function f3(x : real) : real = f2(f2(x)) + f2(f2(x));\n"
-          "function f4(x : real) : real = f3(f3(x)) + f3(f3(x));\n"
-          "function f5(x : real) : real = f4(f4(x)) + f4(f4(x));\nvar x : real;\nconstraint f5(x) == 1;",
+          "Functions are put in place of their names. Where each uses another several times, the model\n"
+          "multiplies at every level.",
+          "function f1(x : real) : real = x + x*x;\n"
+          "function f2(x : real) : real = f1(x) + f1(x) + f1(x) + f1(x) + f1(x) + f1(x) + f1(x) + f1(x);\n"
+          "function f3(x : real) : real = f2(x) + f2(x) + f2(x) + f2(x) + f2(x) + f2(x) + f2(x) + f2(x);\n"
+          "function f4(x : real) : real = f3(x) + f3(x) + f3(x) + f3(x) + f3(x) + f3(x) + f3(x) + f3(x);\n"
+          "function f5(x : real) : real = f4(x) + f4(x) + f4(x) + f4(x) + f4(x) + f4(x) + f4(x) + f4(x);\n"
+          "function f6(x : real) : real = f5(x) + f5(x) + f5(x) + f5(x) + f5(x) + f5(x) + f5(x) + f5(x);\n"
+          "function f7(x : real) : real = f6(x) + f6(x) + f6(x) + f6(x) + f6(x) + f6(x) + f6(x) + f6(x);\n"
+          "function f8(x : real) : real = f7(x) + f7(x) + f7(x) + f7(x) + f7(x) + f7(x) + f7(x) + f7(x);\n"
+          "var x : real;\n"
+          "constraint f8(x) == 1;",
           "function f(x : real) : real = x + x*x;\nvar x : real;\nconstraint f(f(x)) == 1;"},
   };
   return kEntries;

@@ -35,7 +35,7 @@ std::span<const CatalogueEntry> time_entries() {
       CatalogueEntry{Code::no_precision, "the set `{}` has no precision",
                      "A set is known on a grid of cells; `precision` is their edge.",
                      "var M : set real[2] in [0, 1]^2;", "var M : set real[2] in [0, 1]^2 precision 0.1;"},
-      CatalogueEntry{Code::negative_error, "an error bound is not negative",
+      CatalogueEntry{Code::negative_error, "an error bound cannot be negative",
                      "m +- e is the interval [m - e, m + e].", "var x : real in 1 +- -0.1;",
                      "var x : real in 1 +- 0.1;"},
       CatalogueEntry{

@@ -120,7 +120,7 @@ Type Checker::check_quantified(const Expr& expr, std::uint32_t dim) {
     case Quantifier::minimum:
       return check_minimum(expr);
     default:
-      return not_supported(expr.range, fmt::format("`{}` over a range", spelling(expr.quantifier)));
+      return not_supported(expr.range, fmt::format("`{}` with bound names", spelling(expr.quantifier)));
   }
 }
 

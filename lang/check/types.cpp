@@ -59,7 +59,7 @@ bool Checker::require_domain(const Expr& value, const Type& found, const Type& w
   }
   if (found.dim != wanted.dim) {
     auto& diagnostic = diagnostics().report(Code::wrong_type, value.range, describe(wanted), describe(found));
-    if (found.is(Type::Kind::domain) && found.dim == 0) {
+    if (value.kind == ExprKind::interval) {
       diagnostic.note(fmt::format("a box of equal sides is written `{}^{}`", value.range.text(), wanted.dim));
     }
     return false;

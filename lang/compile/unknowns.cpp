@@ -38,7 +38,8 @@ std::unique_ptr<Problem> Compiler::run() {
   // In the order of definition, so that a long chain of lets is no deep recursion.
   for (const Symbol* symbol : model_.definitions) {
     const auto* let = symbol->as<LetItem>();
-    if (let != nullptr && symbol->type.is(Type::Kind::real)) evaluator_.define(*symbol, *let->value);
+    if (!symbol->type.is(Type::Kind::real) || symbol->unknown) continue;
+    evaluator_.define(*symbol, let != nullptr ? *let->value : *symbol->as<ParamItem>()->value);
   }
   for (const Item& item : model_.tree().items) {
     if (const auto* constraint = std::get_if<ConstraintItem>(&item.content)) compile_constraint(*constraint);

@@ -24,7 +24,9 @@ class ColumnConverter {
     Column column{&table_, index_, std::vector<CellValue>(table_.rows())};
     for (std::size_t row = 0; row < table_.rows(); ++row) column.cells[row] = value_of(row);
     if (wrong_ == 0) return column;
-    if (wrong_ > 1) first_.note(fmt::format("{} more cells of the column are wrong", wrong_ - 1));
+    if (wrong_ > 1)
+      first_.note(wrong_ == 2 ? "one more cell of the column is wrong"
+                              : fmt::format("{} more cells of the column are wrong", wrong_ - 1));
     diagnostics_.add(first_);
     return {};
   }

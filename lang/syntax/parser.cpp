@@ -36,7 +36,8 @@ const std::vector<std::string>& item_words() {
 // A thing that is missing at the end of a line is missed there, not where the next line starts.
 SourceRange place_of(const SyntaxError& error, const Token* first) {
   const Token& found = *error.where;
-  if (&found == first || error.kind != SyntaxError::Kind::expected) return found.range;
+  const bool at_token = error.kind != SyntaxError::Kind::expected || error.expected == "an item";
+  if (&found == first || at_token) return found.range;
   const SourceRange& before = (&found - 1)->range;
   const std::string_view between =
       found.range.source->text().substr(before.end, found.range.begin - before.end);
@@ -60,7 +61,9 @@ void report(const SyntaxError& error, const Token* first, Diagnostics& diagnosti
     case SyntaxError::Kind::expected:
       break;
   }
-  if (error.expected == "a name" && is_keyword(found.kind)) {
+  // In a list of parameters, what could also end it is what was expected.
+  const bool declares = found.kind != TokenKind::end && (&found + 1)->kind == TokenKind::colon;
+  if (is_keyword(found.kind) && (error.expected == "a name" || declares)) {
     diagnostics.report(Code::reserved_word, place, found.text());
     return;
   }
@@ -86,13 +89,23 @@ const Token* recover(const Token* from, const Token* last) {
 }  // namespace
 
 void parse_items(const Source& source, SyntaxTree& tree, Diagnostics& diagnostics) {
+  const std::size_t before = diagnostics.count();
   const std::vector<Token> tokens = tokenize(source, diagnostics);
+  const std::size_t after = diagnostics.count();
+  // What follows from a character that was skipped is no second mistake.
+  const auto is_told = [&](const Token& from, const Token& to) {
+    for (std::size_t i = before; i < after; ++i) {
+      const std::uint32_t at = diagnostics.all()[i].range.begin;
+      if (from.range.begin <= at && at <= to.range.end) return true;
+    }
+    return false;
+  };
   const Token* const last = &tokens.back();
   for (const Token* at = tokens.data(); at != last;) {
     const Token* const first = at;
     Item item;
     if (const auto error = read_item(at, last + 1, tree, item)) {
-      report(*error, tokens.data(), diagnostics);
+      if (!is_told(*first, *error->where)) report(*error, tokens.data(), diagnostics);
       const bool stands_at_item = starts_item(error->where->kind) && error->where != first;
       at = stands_at_item ? error->where : recover(error->where == last ? last : error->where, last);
       continue;

@@ -14,7 +14,8 @@ constexpr std::size_t kLanes = 64;
 
 // An upper bound of x over a slice of length dt, where x starts at most at x0, ends at most at x1, and its slope stays
 // in v: the maximum over time of the lesser of the two lines that the ends allow. Where the lines cross at a peak, its
-// height is p x0 + q x1 + r, a weighted mean of the ends raised by r.
+// height is p x0 + q x1 + r, a weighted mean of the ends raised by r. For a given v that is isotone in the ends to the
+// last bit; a narrower v may give a peak that is higher by a rounding error.
 double slice_upper(double x0, double x1, const Interval& v, const Interval& dt) {
   const double from_start = std::max(x0, up::add(Interval::raw(x0, x0), up::mul(v, dt)).hi());
   const double from_end = std::max(x1, up::sub(Interval::raw(x1, x1), up::mul(v, dt)).hi());
@@ -57,7 +58,7 @@ class DerivativeContractor final : public Contractor {
         if (x.is_empty() || !x.meet_at(c, item, bound)) return;
         moved.insert(item);
         changes.insert(item);
-        if (x.is_empty()) when = inputs_.when(item);
+        if (x.is_empty()) when = when_at(item);
       };
       meet_gates_with_slices(x, c, meet_at);
       while (!moved.is_none() && !x.is_empty()) {
@@ -110,7 +111,7 @@ class DerivativeContractor final : public Contractor {
       for (std::size_t c = 0; c < slopes_.size(); ++c) {
         slopes_[c][k] = evaluation_.get(program_.root(c), lane);
         if (slopes_[c][k].is_empty()) {
-          access.fail(x_, inputs_.when(2 * k + 1));
+          access.fail(x_, when_at(2 * k + 1));
           return false;
         }
         steps_[c][k] = up::mul(slopes_[c][k], dt);
@@ -118,6 +119,11 @@ class DerivativeContractor final : public Contractor {
       new_slopes_.insert(2 * k + 1);
     }
     return true;
+  }
+
+  [[nodiscard]] std::array<double, 2> when_at(std::size_t item) const {
+    const Interval span = line_->span(item);
+    return {span.lo(), span.hi()};
   }
 
   [[nodiscard]] Interval duration(std::size_t k) const {

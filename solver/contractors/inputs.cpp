@@ -105,15 +105,28 @@ void Inputs::report(Access& access) {
     switch (place.kind) {
       case Input::Kind::real: access.report<Interval>(variables_[v], {place.changed}); break;
       case Input::Kind::vector: access.report<Box>(variables_[v], {place.changed}); break;
-      default: access.report<Tube>(variables_[v], place.items, place.emptied_at ? when(*place.emptied_at) : std::nullopt);
+      default: access.report<Tube>(variables_[v], place.items, place.emptied_at ? std::optional(span_of(*place.emptied_at)) : std::nullopt);
     }
   }
 }
 
 std::optional<std::array<double, 2>> Inputs::when(std::size_t item) const {
-  if (context_.line == nullptr) return std::nullopt;
+  if (!timed_) {  // the one instant that the program speaks of, if it is one
+    std::optional<std::size_t> gate;
+    for (const Input& input : inputs_) {
+      if (input.kind != Input::Kind::gate) continue;
+      if (gate && *gate != item_of(input, 0)) return std::nullopt;
+      gate = item_of(input, 0);
+    }
+    if (!gate) return std::nullopt;
+    item = *gate;
+  }
+  return span_of(item);
+}
+
+std::array<double, 2> Inputs::span_of(std::size_t item) const {
   const Interval span = context_.line->span(item);
-  return std::array{span.lo(), span.hi()};
+  return {span.lo(), span.hi()};
 }
 
 }  // namespace hcsp

@@ -48,12 +48,14 @@ class Inputs {
   bool store(const Evaluation& evaluation, std::size_t item, std::size_t lane = 0);
   /// Reports what narrow() changed since open(); a failure names the item where a domain became empty.
   void report(Access& access);
-  /// The span of an item, for reports; none when untimed.
+  /// The time that a failure at an item has, for reports; none when the program speaks of no one time.
   [[nodiscard]] std::optional<std::array<double, 2>> when(std::size_t item) const;
   /// The variable to blame when the constraint has no solution at an item.
   [[nodiscard]] VariableId blamed() const { return variables_.front(); }
 
  private:
+  [[nodiscard]] std::array<double, 2> span_of(std::size_t item) const;
+
   struct Place {  // of one variable
     Input::Kind kind = Input::Kind::real;
     Interval* real = nullptr;

@@ -10,14 +10,13 @@ VariableId ContractorGraph::add_slot(std::string name, bool hidden, std::unique_
 }
 
 ContractorId ContractorGraph::add_contractor(std::unique_ptr<Contractor> contractor) {
+  for (const std::span<const VariableId> variables : {contractor->reads(), contractor->writes()}) {
+    for (const VariableId v : variables) {
+      require(v < variables_.size(), "ContractorGraph: contractor {} joins an unknown variable", contractor->name());
+    }
+  }
   const auto id = static_cast<ContractorId>(contractors_.size());
-  for (const VariableId v : contractor->writes()) {
-    require(v < variables_.size(), "ContractorGraph: contractor {} writes an unknown variable", contractor->name());
-  }
-  for (const VariableId v : contractor->reads()) {
-    require(v < variables_.size(), "ContractorGraph: contractor {} reads an unknown variable", contractor->name());
-    variables_[v].readers_.push_back(id);
-  }
+  for (const VariableId v : contractor->reads()) variables_[v].readers_.push_back(id);
   contractors_.push_back(std::move(contractor));
   return id;
 }

@@ -33,7 +33,9 @@ Propagation::Propagation(const ContractorGraph& graph, PropagationOptions option
     const auto& readers = graph.variable(v).readers();
     for (std::size_t place = 0; place < readers.size(); ++place) access_[readers[place]].places_[v] = place;
   }
-  for (const auto& contractor : graph.contractors()) dearest_ = std::max(dearest_, contractor->cost());
+  Cost dearest = Cost::constant;
+  for (const auto& contractor : graph.contractors()) dearest = std::max(dearest, contractor->cost());
+  counted_ = std::min(dearest, Cost::linear);
   if (options_.order == Order::reversed) std::reverse(schedule_.begin(), schedule_.end());
   if (options_.order == Order::shuffled) {
     std::mt19937_64 random(options_.seed);
@@ -58,7 +60,7 @@ bool Propagation::out_of_limits() const {
 void Propagation::run_contractor(ContractorId id, Observer* observer) {
   Contractor& contractor = *graph_.contractors()[id];
   awake_[id] = false;
-  ran_this_pass_[id] = contractor.cost() == dearest_;
+  ran_this_pass_[id] = contractor.cost() >= counted_;
   for (const VariableId v : contractor.reads()) slots_[v]->hand_over(access_[id].places_[v]);
   if (observer != nullptr) observer->before_contractor(*this, id);
   const double before = options_.clock();
@@ -73,7 +75,7 @@ void Propagation::run_contractor(ContractorId id, Observer* observer) {
   if (observer != nullptr) observer->after_contractor(*this, id);
 }
 
-// Ends a pass: none of the dearest contractors runs twice in one. True when the threshold says that this was the last.
+// Ends a pass: no contractor that sweeps or searches runs twice in one. True when the threshold says that this was the last.
 bool Propagation::end_pass(Observer* observer) {
   std::fill(ran_this_pass_.begin(), ran_this_pass_.end(), false);
   if (observer != nullptr) observer->after_pass(*this);

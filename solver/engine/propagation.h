@@ -137,8 +137,8 @@ class Propagation {
   std::vector<Access> access_;          // by contractor
   std::vector<ContractorId> schedule_;  // all contractors, in the order in which awake ones run
   std::vector<bool> awake_;
-  std::vector<bool> ran_this_pass_;     // of the dearest contractors
-  Cost dearest_ = Cost::constant;       // of the graph's contractors
+  std::vector<bool> ran_this_pass_;     // of the contractors that passes are counted by
+  Cost counted_ = Cost::constant;       // their least cost: those of a few operations do not make a pass
   std::vector<double> open_;  // the variables' measures at the last pass's end, when there is a threshold
   std::vector<ContractorCount> counts_;
   std::optional<Failure> failure_;

@@ -26,11 +26,11 @@ NodeId no_partial(Dag& dag, NodeId y, int) {
   return y;
 }
 
-// At a kink (abs, min, max at ties) the undecided condition gives the hull of both one-sided derivatives.
-NodeId partial_of_extremum(const Builder& b, int k, bool smaller) {
-  const NodeId mine = b.operand(k), other = b.operand(1 - k);
-  const NodeId taken = smaller ? b.of(Op::less, mine, other) : b.of(Op::less, other, mine);
-  return b.choose(taken, b.number(1.0), b.number(0.0));
+// At a kink (abs at 0, min and max at ties) the hull of both one-sided derivatives.
+NodeId one_sided(const Builder& b, NodeId lesser, NodeId greater, double when_less, double when_greater) {
+  const NodeId kink = b.dag.constant(join(Interval(when_less), Interval(when_greater)));
+  return b.choose(b.of(Op::less, lesser, greater), b.number(when_less),
+                  b.choose(b.of(Op::less, greater, lesser), b.number(when_greater), kink));
 }
 
 NodeId partial(Op op, const Builder& b, int k) {
@@ -44,9 +44,9 @@ NodeId partial(Op op, const Builder& b, int k) {
       return b.of(Op::neg, b.of(Op::div, b.y, b.operand(1)));
     case Op::sqr: return b.of(Op::mul, b.number(2.0), b.operand(0));
     case Op::sqrt: return b.of(Op::div, b.number(0.5), b.y);
-    case Op::abs: return b.choose(b.of(Op::less, b.number(0.0), b.operand(0)), b.number(1.0), b.number(-1.0));
-    case Op::min: return partial_of_extremum(b, k, true);
-    case Op::max: return partial_of_extremum(b, k, false);
+    case Op::abs: return one_sided(b, b.operand(0), b.number(0.0), -1.0, 1.0);
+    case Op::min: return one_sided(b, b.operand(k), b.operand(1 - k), 1.0, 0.0);
+    case Op::max: return one_sided(b, b.operand(k), b.operand(1 - k), 0.0, 1.0);
     case Op::sin: return b.of(Op::cos, b.operand(0));
     case Op::cos: return b.of(Op::neg, b.of(Op::sin, b.operand(0)));
     case Op::atan2: {

@@ -172,7 +172,7 @@ void put_map(TextBuffer& out, double left, double top, double edge,
   }
   if (leading != nullptr) {
     put_tube(out, plot, std::get<Tube>(leading->domain));
-    keys.push_back({leading->name, "#5d7fa6"});
+    keys.push_back({leading->name, "#a9bdd6"});
   }
   if (truth != nullptr) {
     std::vector<double> xs, ys;

@@ -14,7 +14,8 @@ std::vector<double> ticks(double lo, double hi, int count) {
   const double step = power * (lead < 1.5 ? 1.0 : lead < 3.5 ? 2.0 : lead < 7.5 ? 5.0 : 10.0);
   std::vector<double> values;
   const double slack = 1e-9;  // of a step: 3 * 0.2 is a tick of a range that ends at 0.6
-  for (double k = std::ceil(lo / step - slack); k <= hi / step + slack; ++k) values.push_back(k * step);
+  for (double k = std::ceil(lo / step - slack); k <= hi / step + slack; ++k)
+    values.push_back(k * step + 0.0);  // no -0
   return values;
 }
 

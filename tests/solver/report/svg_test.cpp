@@ -4,6 +4,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "solver/report/svg_parts.h"
 #include "tests/solver/report/sample_result.h"
 #include "tests/solver/report/well_formed.h"
@@ -69,6 +71,7 @@ TEST(Svg, TicksAreRoundAndInRange) {
   EXPECT_THAT(report::ticks(-0.3, 0.6, 4),
               testing::ElementsAre(testing::DoubleNear(-0.2, 1e-12), 0.0, testing::DoubleNear(0.2, 1e-12),
                                    testing::DoubleNear(0.4, 1e-12), testing::DoubleNear(0.6, 1e-12)));
+  EXPECT_FALSE(std::signbit(report::ticks(0.0, 1.0, 5).front()));
   EXPECT_TRUE(report::ticks(1.0, 1.0, 5).empty());
   EXPECT_TRUE(report::ticks(0.0, kInfinity, 5).empty());
 }
