@@ -21,7 +21,8 @@ Box componentwise(const Box& a, const Box& b, Operation operation) {
 }
 }  // namespace
 
-Box::Box(std::initializer_list<Interval> components) : components_(static_cast<Eigen::Index>(components.size())) {
+Box::Box(std::initializer_list<Interval> components)
+    : components_(static_cast<Eigen::Index>(components.size())) {
   std::copy(components.begin(), components.end(), components_.begin());
 }
 

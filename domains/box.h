@@ -14,7 +14,15 @@ struct NumTraits<hcsp::Interval> : GenericNumTraits<hcsp::Interval> {
   using NonInteger = hcsp::Interval;
   using Nested = hcsp::Interval;
   using Literal = double;
-  enum { IsComplex = 0, IsInteger = 0, IsSigned = 1, RequireInitialization = 1, ReadCost = 2, AddCost = 2, MulCost = 8 };
+  enum {
+    IsComplex = 0,
+    IsInteger = 0,
+    IsSigned = 1,
+    RequireInitialization = 1,
+    ReadCost = 2,
+    AddCost = 2,
+    MulCost = 8
+  };
 };
 }  // namespace Eigen
 

@@ -8,7 +8,8 @@
 
 namespace hcsp {
 
-Grid::Grid(std::size_t dim, double precision) : dim_(dim), precision_(precision), significand_(0), exponent_(0) {
+Grid::Grid(std::size_t dim, double precision)
+    : dim_(dim), precision_(precision), significand_(0), exponent_(0) {
   require(dim >= 1 && dim <= 3, "Grid: a set lives in 1 to 3 dimensions, not {}", dim);
   require(std::isnormal(precision) && precision > 0, "Grid: the precision {} is not positive", precision);
   significand_ = static_cast<std::uint64_t>(std::ldexp(std::frexp(precision, &exponent_), 53));
@@ -18,11 +19,12 @@ Grid::Grid(std::size_t dim, double precision) : dim_(dim), precision_(precision)
   for (std::int64_t i = -kTabulated; i <= kTabulated; ++i) lines_.push_back(exact_line(i));
 }
 
-// Integer arithmetic: the product has at most 85 bits, so it is exact, and it is rounded to nearest, ties to even, by
-// hand; the rounding mode of the thread plays no part.
+// Integer arithmetic: the product has at most 85 bits, so it is exact, and it is rounded to nearest, ties to
+// even, by hand; the rounding mode of the thread plays no part.
 double Grid::exact_line(std::int64_t i) const {
   const bool negative = i < 0;
-  unsigned __int128 product = static_cast<unsigned __int128>(significand_) * static_cast<std::uint64_t>(negative ? -i : i);
+  unsigned __int128 product =
+      static_cast<unsigned __int128>(significand_) * static_cast<std::uint64_t>(negative ? -i : i);
   int exponent = exponent_;
   int excess = 0;
   for (unsigned __int128 rest = product >> 53; rest != 0; rest >>= 1) ++excess;

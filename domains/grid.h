@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A regular grid over R^n: cell i of an axis is [line(i), line(i + 1)), line(i) the double nearest i h. The cells are
-// half-open, so they partition space.
+// A regular grid over R^n: cell i of an axis is [line(i), line(i + 1)), line(i) the double nearest i h. The
+// cells are half-open, so they partition space.
 #pragma once
 
 #include <array>
@@ -19,8 +19,8 @@ class Grid {
   /// Cells are addressable while their indices are below this in absolute value; space beyond has no cells.
   static constexpr std::int64_t kReach = std::int64_t{1} << 28;
 
-  /// Cells of edge `precision` in R^dim. Throws std::invalid_argument unless dim is 1 to 3 and the precision a positive
-  /// finite number.
+  /// Cells of edge `precision` in R^dim. Throws std::invalid_argument unless dim is 1 to 3 and the precision
+  /// a positive finite number.
   Grid(std::size_t dim, double precision);
 
   [[nodiscard]] std::size_t dim() const { return dim_; }
@@ -33,7 +33,9 @@ class Grid {
   /// The cell that holds x: line(i) <= x < line(i + 1); clamped to the addressable cells.
   [[nodiscard]] std::int64_t cell_of(double x) const;
 
-  friend bool operator==(const Grid& a, const Grid& b) { return a.dim_ == b.dim_ && a.precision_ == b.precision_; }
+  friend bool operator==(const Grid& a, const Grid& b) {
+    return a.dim_ == b.dim_ && a.precision_ == b.precision_;
+  }
 
  private:
   static constexpr std::int64_t kTabulated = 1024;

@@ -11,8 +11,8 @@ namespace hcsp {
 
 namespace {
 
-// Applies a kernel under upward rounding. The operands enter, and the result leaves, through opaque(), so that no
-// operation can be scheduled outside the guard's lifetime.
+// Applies a kernel under upward rounding. The operands enter, and the result leaves, through opaque(), so
+// that no operation can be scheduled outside the guard's lifetime.
 Interval fenced(const Interval& a) { return Interval::raw(opaque(a.lo()), opaque(a.hi())); }
 
 template <class Kernel, class... Operands>

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Closed real intervals in the set-based flavour of IEEE 1788-2015: the sets of reals {x : lo <= x <= hi}, bounds
-// possibly infinite, and the empty set. Every function here is sound in any rounding mode of the caller, which is
-// left as found; the engine's inner loops use the kernels of interval_kernel.h under one guard instead.
+// Closed real intervals in the set-based flavour of IEEE 1788-2015: the sets of reals {x : lo <= x <= hi},
+// bounds possibly infinite, and the empty set. Every function here is sound in any rounding mode of the
+// caller, which is left as found; the engine's inner loops use the kernels of interval_kernel.h under one
+// guard instead.
 #pragma once
 
 #include <limits>
@@ -28,8 +29,9 @@ class Interval {
   static constexpr Interval raw(double lo, double hi) { return Interval(Unchecked{}, lo, hi); }
   static constexpr Interval entire() { return {}; }
   static constexpr Interval empty() { return raw(kInfinity, -kInfinity); }
-  /// The tightest interval around the decimal (or hexadecimal, or "oo"-signed infinite bound) number written in text.
-  /// "0.1" gives the two doubles around one tenth. Throws std::invalid_argument when text is not a number.
+  /// The tightest interval around the decimal (or hexadecimal, or "oo"-signed infinite bound) number written
+  /// in text. "0.1" gives the two doubles around one tenth. Throws std::invalid_argument when text is not a
+  /// number.
   static Interval of_decimal(std::string_view text);
 
   [[nodiscard]] constexpr double lo() const { return lo_; }
@@ -41,7 +43,8 @@ class Interval {
   [[nodiscard]] constexpr bool contains(double x) const { return lo_ <= x && x <= hi_; }
   /// The width, rounded up; 0 for the empty set.
   [[nodiscard]] double width() const;
-  /// A finite double inside, the nearest to the midpoint where the interval is bounded. Not for the empty set.
+  /// A finite double inside, the nearest to the midpoint where the interval is bounded. Not for the empty
+  /// set.
   [[nodiscard]] double mid() const;
   /// The largest absolute value; 0 for the empty set.
   [[nodiscard]] double mag() const;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Interval arithmetic for inner loops. PRECONDITION of everything in namespace up: the thread rounds upward
-// (rounding.h: RoundUpward is alive). A lower bound is then the negated upper bound of the negated value, so that
-// one rounding mode serves both and none is switched: -((-a) - b) rounds a + b down. This relies on -frounding-math,
-// which the target hcsp_domains hands to whoever includes this.
+// (rounding.h: RoundUpward is alive). A lower bound is then the negated upper bound of the negated value, so
+// that one rounding mode serves both and none is switched: -((-a) - b) rounds a + b down. This relies on
+// -frounding-math, which the target hcsp_domains hands to whoever includes this.
 #pragma once
 
 #include <algorithm>
@@ -19,8 +19,8 @@ inline double sub_down(double a, double b) { return -(b - a); }
 inline double mul_down(double a, double b) { return -((-a) * b); }
 inline double div_down(double a, double b) { return -((-a) / b); }
 
-/// The least double above x and the greatest below it, by stepping the bits: adding the least subnormal would do the
-/// same in upward rounding, but costs a microcode assist.
+/// The least double above x and the greatest below it, by stepping the bits: adding the least subnormal would
+/// do the same in upward rounding, but costs a microcode assist.
 inline double next_up(double x) {
   if (x == kInfinity) return x;
   const auto bits = std::bit_cast<std::int64_t>(x);
@@ -29,15 +29,16 @@ inline double next_up(double x) {
 }
 inline double next_down(double x) { return -next_up(-x); }
 
-/// sqrt rounded down, for x >= 0: the upward root, unless its square (exact exactly when both roundings agree)
-/// tells that it was rounded.
+/// sqrt rounded down, for x >= 0: the upward root, unless its square (exact exactly when both roundings
+/// agree) tells that it was rounded.
 inline double sqrt_down(double x) {
   const double root = std::sqrt(x);
   const bool exact = root * root == x && mul_down(root, root) == x;
   return exact || x == kInfinity ? root : next_down(root);
 }
 
-/// 0 * oo = 0 for bounds: the bound oo is not a value that is taken (IEEE 1788-2015, 9.1; level 2 of the product).
+/// 0 * oo = 0 for bounds: the bound oo is not a value that is taken (IEEE 1788-2015, 9.1; level 2 of the
+/// product).
 inline double no_nan(double product) { return product == product ? product : 0.0; }
 
 inline Interval add(const Interval& a, const Interval& b) {
@@ -62,7 +63,8 @@ inline Interval mul(const Interval& a, const Interval& b) {
 /// a / b for b without zero inside its bounds' signs: b > 0 or b < 0, a bound of b possibly 0 or infinite.
 inline Interval div_by_signed(const Interval& a, const Interval& b) {
   if (b.hi() <= 0) return div_by_signed(-a, -b);
-  // b.lo >= 0: a quotient's extreme divisor depends on the sign of the numerator's bound alone. 0 / 0 is no value.
+  // b.lo >= 0: a quotient's extreme divisor depends on the sign of the numerator's bound alone. 0 / 0 is no
+  // value.
   const double near = std::abs(b.lo());  // a zero bound is +0, whatever its sign was
   const double lo_by = a.lo() >= 0 ? b.hi() : near;
   const double hi_by = a.hi() >= 0 ? near : b.hi();
@@ -106,10 +108,11 @@ inline Interval max(const Interval& a, const Interval& b) {
   return Interval::raw(std::max(a.lo(), b.lo()), std::max(a.hi(), b.hi()));
 }
 
-// Reverse operations (IEEE 1788-2015, 9.1 and 10.5.4): the part of x for which the operation can give a value in c.
+// Reverse operations (IEEE 1788-2015, 9.1 and 10.5.4): the part of x for which the operation can give a value
+// in c.
 
-/// {x in X : there is b in B with x * b in c}: exact up to rounding, the two parts of a division by an interval
-/// around zero are both met with X before they are joined.
+/// {x in X : there is b in B with x * b in c}: exact up to rounding, the two parts of a division by an
+/// interval around zero are both met with X before they are joined.
 inline Interval mul_rev(const Interval& b, const Interval& c, const Interval& x) {
   if (b.is_empty() || c.is_empty() || x.is_empty()) return Interval::empty();
   if (b.contains(0) && c.contains(0)) return x;
@@ -152,8 +155,8 @@ inline Interval max_rev(const Interval& b, const Interval& c, const Interval& x)
 
 namespace hcsp {
 
-// Elementary functions and their reverses: sound in any rounding mode (they set their own), so they need no kernel
-// form; the reverse of the sine is the part of x whose sine can lie in c.
+// Elementary functions and their reverses: sound in any rounding mode (they set their own), so they need no
+// kernel form; the reverse of the sine is the part of x whose sine can lie in c.
 Interval sin_rev(const Interval& c, const Interval& x);
 Interval cos_rev(const Interval& c, const Interval& x);
 /// Contracts y and x to the part for which atan2(y, x) can lie in angle; returns false when none is left.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The one algebra of hcsp: every unknown lives in a complete lattice and its domain is an interval of it.
-// A domain type models Lattice; its Delta tells what a contraction changed, so that the engine wakes only what
-// looks at the part that moved (Jaulin, IEEE T-RO 27(5), 2011, section III; docs/mathematics.md).
+// A domain type models Lattice; its Delta tells what a contraction changed, so that the engine wakes only
+// what looks at the part that moved (Jaulin, IEEE T-RO 27(5), 2011, section III; docs/mathematics.md).
 #pragma once
 
 #include <concepts>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The one place that touches the floating-point environment. Kernels (interval_kernel.h) assume upward rounding with
-// gradual underflow; the guards set it and leave the caller's environment exactly as found.
+// The one place that touches the floating-point environment. Kernels (interval_kernel.h) assume upward
+// rounding with gradual underflow; the guards set it and leave the caller's environment exactly as found.
 #pragma once
 
 #include <cstdint>
@@ -23,7 +23,8 @@ inline double opaque(double x) {
   return x;
 }
 
-/// RAII guard: rounding direction set on this thread (flush-to-zero off, exceptions masked), restored on exit.
+/// RAII guard: rounding direction set on this thread (flush-to-zero off, exceptions masked), restored on
+/// exit.
 template <bool kUpward>
 class RoundingGuard {
  public:

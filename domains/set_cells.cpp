@@ -14,7 +14,9 @@ namespace {
 // Joins boxes that touch along one axis and agree along the others.
 void merge_along(std::vector<Region>& boxes, std::size_t axis) {
   const std::size_t b = (axis + 1) % 3, c = (axis + 2) % 3;
-  const auto cross_section = [b, c](const Region& r) { return std::tuple(r.lo[c], r.hi[c], r.lo[b], r.hi[b]); };
+  const auto cross_section = [b, c](const Region& r) {
+    return std::tuple(r.lo[c], r.hi[c], r.lo[b], r.hi[b]);
+  };
   std::sort(boxes.begin(), boxes.end(), [&](const Region& x, const Region& y) {
     return std::tuple(cross_section(x), x.lo[axis]) < std::tuple(cross_section(y), y.lo[axis]);
   });
@@ -32,10 +34,14 @@ void merge_along(std::vector<Region>& boxes, std::size_t axis) {
 
 std::uint64_t cells_in(CellState state, std::uint64_t lower, std::uint64_t upper) {
   switch (state) {
-    case CellState::outside: return ~lower & ~upper;
-    case CellState::unknown: return ~lower & upper;
-    case CellState::inside: return lower & upper;
-    case CellState::contradiction: return lower & ~upper;
+    case CellState::outside:
+      return ~lower & ~upper;
+    case CellState::unknown:
+      return ~lower & upper;
+    case CellState::inside:
+      return lower & upper;
+    case CellState::contradiction:
+      return lower & ~upper;
   }
   return 0;
 }
@@ -43,8 +49,8 @@ std::uint64_t cells_in(CellState state, std::uint64_t lower, std::uint64_t upper
 }  // namespace
 
 // Runs of uniform children in a state, row by row.
-void SetInterval::collect_runs(std::uint32_t node, std::int64_t child_edge, const CellIndex& origin, CellState state,
-                               std::vector<Region>& runs) const {
+void SetInterval::collect_runs(std::uint32_t node, std::int64_t child_edge, const CellIndex& origin,
+                               CellState state, std::vector<Region>& runs) const {
   const Node& at = nodes_[node];
   const std::uint64_t found = cells_in(state, at.lower, at.upper) & ~at.mixed;
   for (int first = 0; first < 64; first += static_cast<int>(side())) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// How a contractor decides a set interval: it hands a Zone, which looks at a box of cells and says that all of them, none
-// of them, or neither are to be settled; undecided blocks are split down to the cell. The boxes are those around the
-// cells that are still open, so what is settled already costs nothing. A Zone has
+// How a contractor decides a set interval: it hands a Zone, which looks at a box of cells and says that all
+// of them, none of them, or neither are to be settled; undecided blocks are split down to the cell. The boxes
+// are those around the cells that are still open, so what is settled already costs nothing. A Zone has
 //   Decision decide(const Region& cells);
 // and may have, to decide the 64 children of a node at once, each a cube of child_edge cells,
 //   ChildDecisions decide_children(const CellIndex& origin, std::int64_t child_edge);
@@ -13,7 +13,8 @@ namespace hcsp {
 
 enum class Decision : std::uint8_t { none, all, split };
 
-/// Which children of a node are to be settled whole, and which may hold cells to settle (bit x + side y + side^2 z).
+/// Which children of a node are to be settled whole, and which may hold cells to settle (bit x + side y +
+/// side^2 z).
 struct ChildDecisions {
   std::uint64_t all = 0;
   std::uint64_t some = 0;
@@ -66,7 +67,8 @@ void SetInterval::descend_node(std::uint32_t node, std::int64_t child_edge, cons
       delta.join(bounds_of(all, origin, child_edge));
     }
     if (child_edge == 1) return;
-    for (std::uint64_t rest = (decisions.some | decisions.all) & open & ~all; rest != 0 && !empty_; rest &= rest - 1) {
+    for (std::uint64_t rest = (decisions.some | decisions.all) & open & ~all; rest != 0 && !empty_;
+         rest &= rest - 1) {
       const int bit = __builtin_ctzll(rest);
       const CellIndex lo = child_place(origin, child_edge, bit);
       descend_node<kInclude>(child(node, bit), child_edge >> axis_bits(), lo, bounds, zone, delta);
@@ -78,8 +80,8 @@ void SetInterval::descend_node(std::uint32_t node, std::int64_t child_edge, cons
 }
 
 template <bool kInclude, class Zone>
-void SetInterval::descend(std::uint32_t node, std::int64_t child_edge, const CellIndex& origin, std::int64_t part,
-                          int bit, const Region& bounds, Zone& zone, Region& delta) {
+void SetInterval::descend(std::uint32_t node, std::int64_t child_edge, const CellIndex& origin,
+                          std::int64_t part, int bit, const Region& bounds, Zone& zone, Region& delta) {
   const std::uint64_t mask = part_mask(part, bit);
   const std::uint64_t open = mask & (kInclude ? ~nodes_[node].lower : nodes_[node].upper);
   if (open == 0 || empty_) return;
@@ -95,7 +97,8 @@ void SetInterval::descend(std::uint32_t node, std::int64_t child_edge, const Cel
   }
   if (part > 1) {
     for (int corner = 0; corner < (1 << dim()); ++corner) {
-      descend<kInclude>(node, child_edge, origin, part / 2, bit + part_bit(part / 2, corner), bounds, zone, delta);
+      descend<kInclude>(node, child_edge, origin, part / 2, bit + part_bit(part / 2, corner), bounds, zone,
+                        delta);
     }
   } else if (child_edge > 1) {
     const CellIndex lo = child_place(origin, child_edge, bit);

@@ -19,11 +19,14 @@ Planes uniform_planes(const Planes& planes, int bit) {
 CellState state_of(const Planes& planes, int bit) {
   const bool lower = ((planes.lower >> bit) & 1U) != 0;
   const bool upper = ((planes.upper >> bit) & 1U) != 0;
-  return lower ? (upper ? CellState::inside : CellState::contradiction) : (upper ? CellState::unknown : CellState::outside);
+  return lower ? (upper ? CellState::inside : CellState::contradiction)
+               : (upper ? CellState::unknown : CellState::outside);
 }
 
 // The lowest bits, one a layer along an axis.
-constexpr std::uint64_t mask_of_layers(std::int64_t side) { return side == 64 ? kAll : (std::uint64_t{1} << side) - 1; }
+constexpr std::uint64_t mask_of_layers(std::int64_t side) {
+  return side == 64 ? kAll : (std::uint64_t{1} << side) - 1;
+}
 
 // The part of a block's cells at the origin of its node, as a mask of children: part children along an axis.
 constexpr std::uint64_t mask_at_origin(std::size_t dim, int axis_bits, std::int64_t part) {
@@ -42,7 +45,8 @@ constexpr MaskTable make_masks() {
   MaskTable table{};
   for (std::size_t dim = 1; dim <= 3; ++dim) {
     const int bits = 6 / static_cast<int>(dim);
-    for (int log = 0; log <= bits; ++log) table[dim][static_cast<std::size_t>(log)] = mask_at_origin(dim, bits, std::int64_t{1} << log);
+    for (int log = 0; log <= bits; ++log)
+      table[dim][static_cast<std::size_t>(log)] = mask_at_origin(dim, bits, std::int64_t{1} << log);
   }
   return table;
 }
@@ -51,15 +55,16 @@ constexpr MaskTable kMasks = make_masks();
 
 // The cells that the closed frame touches: half-open cells, so a face at line(i) touches cell i.
 Region touched_cells(const Grid& grid, const Box& frame) {
-  require(static_cast<std::size_t>(frame.dim()) == grid.dim(), "SetInterval: a frame of dimension {} in R^{}", frame.dim(),
-          grid.dim());
+  require(static_cast<std::size_t>(frame.dim()) == grid.dim(), "SetInterval: a frame of dimension {} in R^{}",
+          frame.dim(), grid.dim());
   Region region;
   const double reach = grid.line(Grid::kReach);
   for (std::size_t axis = 0; axis < grid.dim(); ++axis) {
     const Interval& side = frame[static_cast<Eigen::Index>(axis)];
     require(side.lo() < side.hi(), "SetInterval: the frame {} has no volume", to_string(frame));
-    require(-reach < side.lo() && side.hi() < reach, "SetInterval: the frame {} is beyond the addressable cells of {}",
-            to_string(frame), grid.precision());
+    require(-reach < side.lo() && side.hi() < reach,
+            "SetInterval: the frame {} is beyond the addressable cells of {}", to_string(frame),
+            grid.precision());
     region.lo[axis] = grid.cell_of(side.lo());
     region.hi[axis] = grid.cell_of(side.hi()) + 1;
   }
@@ -182,12 +187,15 @@ Region SetInterval::everywhere() {
   return region;
 }
 
-bool SetInterval::has_outside() const { return background_.upper == 0 || has_cell(root_, kAll, CellState::outside); }
+bool SetInterval::has_outside() const {
+  return background_.upper == 0 || has_cell(root_, kAll, CellState::outside);
+}
 
 // ---- The tree ----
 
-// A tree of L levels covers side^L cells along an axis from -o, where o has the digit side / 2 at each of its L places
-// in base `side`. So a taller tree holds the shorter one as one of its blocks, and 0 stays well inside.
+// A tree of L levels covers side^L cells along an axis from -o, where o has the digit side / 2 at each of its
+// L places in base `side`. So a taller tree holds the shorter one as one of its blocks, and 0 stays well
+// inside.
 CellIndex SetInterval::root_origin() const {
   const std::int64_t below = (side() / 2) * ((root_edge() - 1) / (side() - 1));
   CellIndex origin{};
@@ -209,7 +217,8 @@ CellIndex SetInterval::child_place(const CellIndex& origin, std::int64_t child_e
   return place;
 }
 
-// How far the bit of a part's corner is from its first child's bit: corner is one bit an axis, in units of the part.
+// How far the bit of a part's corner is from its first child's bit: corner is one bit an axis, in units of
+// the part.
 int SetInterval::part_bit(std::int64_t part, int corner) const {
   int bit = 0;
   for (std::size_t axis = 0; axis < dim(); ++axis) {
@@ -236,14 +245,15 @@ void SetInterval::sum_up(Block& block) const {
 }
 
 // The children of a node that meet a box of cells, or lie wholly in it.
-std::uint64_t SetInterval::children_within(const Region& bounds, const CellIndex& origin, std::int64_t child_edge,
-                                           bool wholly) const {
+std::uint64_t SetInterval::children_within(const Region& bounds, const CellIndex& origin,
+                                           std::int64_t child_edge, bool wholly) const {
   std::uint64_t children = kAll;
   for (std::size_t axis = 0; axis < dim(); ++axis) {
     std::uint64_t layers = 0;  // of this axis alone
     for (std::int64_t i = 0; i < side(); ++i) {
       const std::int64_t lo = origin[axis] + i * child_edge, hi = lo + child_edge;
-      const bool in = wholly ? bounds.lo[axis] <= lo && hi <= bounds.hi[axis] : lo < bounds.hi[axis] && hi > bounds.lo[axis];
+      const bool in = wholly ? bounds.lo[axis] <= lo && hi <= bounds.hi[axis]
+                             : lo < bounds.hi[axis] && hi > bounds.lo[axis];
       layers |= static_cast<std::uint64_t>(in) << i;
     }
     if (layers == mask_of_layers(side())) continue;
@@ -257,15 +267,19 @@ std::uint64_t SetInterval::children_within(const Region& bounds, const CellIndex
   return children;
 }
 
-// The box around some children of a node: layer by layer along the last axis, then all layers folded into one.
-Region SetInterval::bounds_of(std::uint64_t children, const CellIndex& origin, std::int64_t child_edge) const {
+// The box around some children of a node: layer by layer along the last axis, then all layers folded into
+// one.
+Region SetInterval::bounds_of(std::uint64_t children, const CellIndex& origin,
+                              std::int64_t child_edge) const {
   Region region;
   const auto bound = [&](std::size_t axis, std::uint64_t bits, int layer) {
     region.lo[axis] = origin[axis] + (__builtin_ctzll(bits) >> layer) * child_edge;
     region.hi[axis] = origin[axis] + (((63 - __builtin_clzll(bits)) >> layer) + 1) * child_edge;
   };
   switch (dim()) {
-    case 1: bound(0, children, 0); break;
+    case 1:
+      bound(0, children, 0);
+      break;
     case 2:
       bound(1, children, 3);
       children |= children >> 32;
@@ -371,7 +385,8 @@ void SetInterval::refresh(std::uint32_t node, int bit) {
   const std::uint64_t flag = std::uint64_t{1} << bit;
   const std::uint32_t id = children_[nodes_[node].children][static_cast<std::size_t>(bit)];
   const Node& child = nodes_[id];
-  const bool uniform = child.mixed == 0 && (child.lower == 0 || child.lower == kAll) && (child.upper == 0 || child.upper == kAll);
+  const bool uniform = child.mixed == 0 && (child.lower == 0 || child.lower == kAll) &&
+                       (child.upper == 0 || child.upper == kAll);
   Node& parent = nodes_[node];
   parent.lower = child.lower == kAll ? parent.lower | flag : parent.lower & ~flag;
   parent.upper = child.upper != 0 ? parent.upper | flag : parent.upper & ~flag;
@@ -399,7 +414,8 @@ void SetInterval::cover(const Region& cells) {
   const auto covered = [&] {
     const Region mine = reach();
     for (std::size_t axis = 0; axis < dim(); ++axis) {
-      const std::int64_t lo = std::max(cells.lo[axis], -Grid::kReach), hi = std::min(cells.hi[axis], Grid::kReach);
+      const std::int64_t lo = std::max(cells.lo[axis], -Grid::kReach),
+                         hi = std::min(cells.hi[axis], Grid::kReach);
       if (lo < mine.lo[axis] || hi > mine.hi[axis]) return false;
     }
     return true;
@@ -413,7 +429,8 @@ bool SetInterval::has_cell(std::uint32_t node, std::uint64_t mask, CellState sta
   const std::uint64_t found = state == CellState::outside ? ~at.upper : at.lower;
   if ((found & uniform) != 0) return true;
   for (std::uint64_t rest = at.mixed & mask; rest != 0; rest &= rest - 1) {
-    if (has_cell(children_[at.children][static_cast<std::size_t>(__builtin_ctzll(rest))], kAll, state)) return true;
+    if (has_cell(children_[at.children][static_cast<std::size_t>(__builtin_ctzll(rest))], kAll, state))
+      return true;
   }
   return false;
 }
@@ -435,8 +452,9 @@ struct SetInterval::View {
   }
 };
 
-void SetInterval::combine_node(std::uint32_t node, const View& source, std::int64_t child_edge, const CellIndex& origin,
-                               WordOperation op, const Region& where, Region& delta) {
+void SetInterval::combine_node(std::uint32_t node, const View& source, std::int64_t child_edge,
+                               const CellIndex& origin, WordOperation op, const Region& where,
+                               Region& delta) {
   if (source.node == kNoNode) {
     // A uniform source that leaves each of the four states alone leaves everything alone.
     constexpr Planes kStates{0b1100, 0b1010};
@@ -462,9 +480,10 @@ void SetInterval::combine_node(std::uint32_t node, const View& source, std::int6
   }
 }
 
-Region combine(SetInterval& target, const SetInterval& source, SetInterval::WordOperation op, const Region& where) {
-  require(target.grid_ == source.grid_, "SetInterval: grids differ (precisions {} and {})", target.precision(),
-          source.precision());
+Region combine(SetInterval& target, const SetInterval& source, SetInterval::WordOperation op,
+               const Region& where) {
+  require(target.grid_ == source.grid_, "SetInterval: grids differ (precisions {} and {})",
+          target.precision(), source.precision());
   HCSP_ASSERT(!target.empty_ && !source.empty_);
   if (source.levels_ < target.levels_) {
     SetInterval grown = source;
@@ -473,8 +492,8 @@ Region combine(SetInterval& target, const SetInterval& source, SetInterval::Word
   }
   target.grow_to(source.levels_);
   Region delta;
-  target.combine_node(target.root_, {source, source.root_, {}}, target.root_edge() / target.side(), target.root_origin(),
-                      op, where, delta);
+  target.combine_node(target.root_, {source, source.root_, {}}, target.root_edge() / target.side(),
+                      target.root_origin(), op, where, delta);
   const Planes background = op(target.background_, source.background_);
   delta.beyond = !(background == target.background_);
   target.background_ = background;
@@ -524,7 +543,9 @@ bool leq(const SetInterval& a, const SetInterval& b) {
   return contract(met, b).is_none();
 }
 
-bool operator==(const SetInterval& a, const SetInterval& b) { return a.grid() == b.grid() && leq(a, b) && leq(b, a); }
+bool operator==(const SetInterval& a, const SetInterval& b) {
+  return a.grid() == b.grid() && leq(a, b) && leq(b, a);
+}
 
 SetInterval top(const SetInterval& a) { return {a.dim(), a.precision()}; }
 

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Set intervals [A-, A+] of R^n (Jaulin 2011, section III-B): all sets between a lower and an upper bound, each a union
-// of grid cells. Two bits a cell: `lower`, the cell lies within every member; `upper`, the cell may meet a member.
-// Cells stand in tiles of 64 (8 x 8, 4 x 4 x 4, 64 in a row), tiles in a sparse tree of fan-out 64 whose uniform
-// regions cost one bit pair; beyond the tree the background holds, so the world has no border.
+// Set intervals [A-, A+] of R^n (Jaulin 2011, section III-B): all sets between a lower and an upper bound,
+// each a union of grid cells. Two bits a cell: `lower`, the cell lies within every member; `upper`, the cell
+// may meet a member. Cells stand in tiles of 64 (8 x 8, 4 x 4 x 4, 64 in a row), tiles in a sparse tree of
+// fan-out 64 whose uniform regions cost one bit pair; beyond the tree the background holds, so the world has
+// no border.
 #pragma once
 
 #include <array>
@@ -46,9 +47,9 @@ class SetInterval {
  public:
   using Delta = Region;
 
-  /// Every subset of R^dim, on cells of edge `precision`. With a frame, every subset of the cells that the closed frame
-  /// touches: beyond is outside. Throws std::invalid_argument on a bad dimension, precision, or a frame that is empty,
-  /// flat in an axis, or beyond the addressable cells.
+  /// Every subset of R^dim, on cells of edge `precision`. With a frame, every subset of the cells that the
+  /// closed frame touches: beyond is outside. Throws std::invalid_argument on a bad dimension, precision, or
+  /// a frame that is empty, flat in an axis, or beyond the addressable cells.
   SetInterval(std::size_t dim, double precision, const std::optional<Box>& frame = {});
 
   [[nodiscard]] const Grid& grid() const { return grid_; }
@@ -65,15 +66,20 @@ class SetInterval {
   /// Whether any of space is outside every member.
   [[nodiscard]] bool has_outside() const;
 
-  /// Boxes [lo1, hi1, lo2, hi2, ...] that tile the cells of a state, merged where they touch, as far as the tree reaches.
+  /// Boxes [lo1, hi1, lo2, hi2, ...] that tile the cells of a state, merged where they touch, as far as the
+  /// tree reaches.
   [[nodiscard]] std::vector<std::vector<double>> boxes(CellState state) const;
   /// The same as boxes of cell indices.
   [[nodiscard]] std::vector<Region> cells(CellState state) const;
-  /// Bounds of the volume of every member: of A- rounded down, of A+ rounded up (oo when the background is unknown).
+  /// Bounds of the volume of every member: of A- rounded down, of A+ rounded up (oo when the background is
+  /// unknown).
   [[nodiscard]] double lower_volume() const;
   [[nodiscard]] double upper_volume() const;
 
   // The tree, for contractors that descend it.
+
+  /// Grows the tree until it covers some cells, as far as they are addressable. The set stays the same.
+  void cover(const Region& cells);
 
   /// A cubic block of cells: the root, or a part of one, and a summary of its cells.
   struct Block {
@@ -106,18 +112,21 @@ class SetInterval {
   /// Removes all space beyond the tree from A+.
   Region exclude_background();
 
-  /// target := op(target, source), cell by cell. `where` bounds the cells where that can change anything; the Region of
-  /// the change comes back. Grids must agree: std::invalid_argument otherwise. Neither set may be empty.
+  /// target := op(target, source), cell by cell. `where` bounds the cells where that can change anything; the
+  /// Region of the change comes back. Grids must agree: std::invalid_argument otherwise. Neither set may be
+  /// empty.
   using WordOperation = Planes (*)(Planes target, Planes source);
-  friend Region combine(SetInterval& target, const SetInterval& source, WordOperation op, const Region& where);
+  friend Region combine(SetInterval& target, const SetInterval& source, WordOperation op,
+                        const Region& where);
   /// The cells that the tree covers.
   [[nodiscard]] Region reach() const;
   /// The whole of space: every cell and what lies beyond.
   [[nodiscard]] static Region everywhere();
 
  private:
-  // A child is uniform (its two bits are the state of all its cells) or mixed: then it has a node, `lower` says that
-  // all its cells are inside and `upper` that some cell may hold members. Kept canonical: no mixed child is uniform.
+  // A child is uniform (its two bits are the state of all its cells) or mixed: then it has a node, `lower`
+  // says that all its cells are inside and `upper` that some cell may hold members. Kept canonical: no mixed
+  // child is uniform.
   struct Node {
     std::uint64_t lower = 0, upper = 0, mixed = 0;
     std::uint32_t children = kNoNode;
@@ -133,9 +142,10 @@ class SetInterval {
   [[nodiscard]] std::uint64_t part_mask(std::int64_t part, int bit) const;
   [[nodiscard]] CellIndex child_place(const CellIndex& origin, std::int64_t child_edge, int bit) const;
   [[nodiscard]] int part_bit(std::int64_t part, int corner) const;
-  [[nodiscard]] std::uint64_t children_within(const Region& bounds, const CellIndex& origin, std::int64_t child_edge,
-                                              bool wholly) const;
-  [[nodiscard]] Region bounds_of(std::uint64_t children, const CellIndex& origin, std::int64_t child_edge) const;
+  [[nodiscard]] std::uint64_t children_within(const Region& bounds, const CellIndex& origin,
+                                              std::int64_t child_edge, bool wholly) const;
+  [[nodiscard]] Region bounds_of(std::uint64_t children, const CellIndex& origin,
+                                 std::int64_t child_edge) const;
   [[nodiscard]] std::uint64_t mask_of_part(const Block& block, int corner) const;
   void sum_up(Block& block) const;
   [[nodiscard]] CellIndex node_origin(const Block& block) const;
@@ -148,17 +158,16 @@ class SetInterval {
   void free_node(std::uint32_t node);
   void refresh(std::uint32_t node, int bit);
   void grow_to(int levels);
-  void cover(const Region& cells);
   [[nodiscard]] bool has_cell(std::uint32_t node, std::uint64_t mask, CellState state) const;
   void combine_node(std::uint32_t node, const View& source, std::int64_t child_edge, const CellIndex& origin,
                     WordOperation op, const Region& where, Region& delta);
 
   template <bool kInclude, class Zone>
-  void descend(std::uint32_t node, std::int64_t child_edge, const CellIndex& origin, std::int64_t part, int bit,
-               const Region& bounds, Zone& zone, Region& delta);
+  void descend(std::uint32_t node, std::int64_t child_edge, const CellIndex& origin, std::int64_t part,
+               int bit, const Region& bounds, Zone& zone, Region& delta);
   template <bool kInclude, class Zone>
-  void descend_node(std::uint32_t node, std::int64_t child_edge, const CellIndex& origin, const Region& bounds,
-                    Zone& zone, Region& delta);
+  void descend_node(std::uint32_t node, std::int64_t child_edge, const CellIndex& origin,
+                    const Region& bounds, Zone& zone, Region& delta);
   template <bool kInclude, class Zone>
   Region decide(const Region& bounds, Zone& zone);
   template <bool kInclude>
@@ -186,8 +195,8 @@ inline Region everything(const SetInterval&) { return SetInterval::everywhere();
 /// The volume that is left open, A+ without A-; oo where the background is unknown.
 double measure(const SetInterval& a);
 
-// The arithmetic of set intervals (the paper's Fig. 5): [A] op [B] is the least set interval that holds A op B for all
-// A of [A] and B of [B]. Exact, since cells partition space.
+// The arithmetic of set intervals (the paper's Fig. 5): [A] op [B] is the least set interval that holds A op
+// B for all A of [A] and B of [B]. Exact, since cells partition space.
 SetInterval set_union(const SetInterval& a, const SetInterval& b);
 SetInterval set_intersection(const SetInterval& a, const SetInterval& b);
 SetInterval set_difference(const SetInterval& a, const SetInterval& b);

@@ -36,7 +36,8 @@ Decimal shortest_decimal(double x) {
   return {numerator, std::pow(10.0, static_cast<double>(places))};
 }
 
-// The grid without further instants. k p / q is one correctly rounded division while k p is an integer below 2^53.
+// The grid without further instants. k p / q is one correctly rounded division while k p is an integer below
+// 2^53.
 std::vector<double> plain_grid(double start, double end, double step) {
   const Decimal decimal = shortest_decimal(step);
   std::vector<double> instants;
@@ -55,14 +56,17 @@ TimeLine::TimeLine(std::vector<double> instants) : instants_(std::move(instants)
   require(instants_.size() >= 2, "TimeLine: {} instants given, two are needed", instants_.size());
   for (std::size_t i = 0; i < instants_.size(); ++i) {
     require(std::isfinite(instants_[i]), "TimeLine: instant {} is not finite", i);
-    require(i == 0 || instants_[i - 1] < instants_[i], "TimeLine: instants {} and {} do not increase", i - 1, i);
+    require(i == 0 || instants_[i - 1] < instants_[i], "TimeLine: instants {} and {} do not increase", i - 1,
+            i);
   }
 }
 
 TimeLine TimeLine::grid(double start, double end, double step, const std::vector<double>& further) {
-  require(std::isfinite(start) && std::isfinite(end) && start < end, "TimeLine: [{}, {}] is no span of time", start, end);
+  require(std::isfinite(start) && std::isfinite(end) && start < end, "TimeLine: [{}, {}] is no span of time",
+          start, end);
   require(std::isfinite(step) && step > 0, "TimeLine: the step {} is not positive", step);
-  require((end - start) / step <= kMostInstants, "TimeLine: [{}, {}] has too many steps of {}", start, end, step);
+  require((end - start) / step <= kMostInstants, "TimeLine: [{}, {}] has too many steps of {}", start, end,
+          step);
   RoundNearest guard;
   std::vector<double> given;
   for (const double t : further) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The time line of a model: instants t_0 < ... < t_N. Between them lie N open slices. Every tube of a model stands
-// on the same line, so no two tubes can disagree about their slicing. An item is a gate or a slice, in the order of
-// time: item 2i is the gate at t_i, item 2k + 1 the slice (t_k, t_{k+1}).
+// The time line of a model: instants t_0 < ... < t_N. Between them lie N open slices. Every tube of a model
+// stands on the same line, so no two tubes can disagree about their slicing. An item is a gate or a slice, in
+// the order of time: item 2i is the gate at t_i, item 2k + 1 the slice (t_k, t_{k+1}).
 #pragma once
 
 #include <cstddef>
@@ -18,9 +18,10 @@ class TimeLine {
   /// Throws std::invalid_argument unless there are two instants or more, finite and strictly increasing.
   explicit TimeLine(std::vector<double> instants);
 
-  /// The grid start, start + step, ... up to and with end, joined with the further instants that lie in [start, end].
-  /// A grid instant nearer than 1e-6 steps to a further instant is that instant: 3 * 0.1 and the stamp 0.3 are one.
-  /// Throws std::invalid_argument unless start < end, step > 0 and the grid has at most kMostInstants instants.
+  /// The grid start, start + step, ... up to and with end, joined with the further instants that lie in
+  /// [start, end]. A grid instant nearer than 1e-6 steps to a further instant is that instant: 3 * 0.1 and
+  /// the stamp 0.3 are one. Throws std::invalid_argument unless start < end, step > 0 and the grid has at
+  /// most kMostInstants instants.
   static TimeLine grid(double start, double end, double step, const std::vector<double>& further = {});
   static constexpr double kMostInstants = 1e8;
 

@@ -10,8 +10,8 @@ namespace hcsp {
 namespace {
 
 void require_same_shape(const Tube& a, const Tube& b) {
-  require(a.dim() == b.dim() && a.line() == b.line(), "Tube: shapes differ (dimensions {} and {}, or time lines)",
-          a.dim(), b.dim());
+  require(a.dim() == b.dim() && a.line() == b.line(),
+          "Tube: shapes differ (dimensions {} and {}, or time lines)", a.dim(), b.dim());
 }
 
 template <class Visit>
@@ -24,7 +24,11 @@ void for_each_place(const Tube& a, Visit visit) {
 }  // namespace
 
 Tube::Tube(std::shared_ptr<const TimeLine> line, std::size_t dim)
-    : line_(std::move(line)), dim_(dim), items_(line_->items()), lo_(dim * items_, -kInfinity), hi_(dim * items_, kInfinity) {
+    : line_(std::move(line)),
+      dim_(dim),
+      items_(line_->items()),
+      lo_(dim * items_, -kInfinity),
+      hi_(dim * items_, kInfinity) {
   require(dim >= 1, "Tube: dimension {}", dim);
 }
 
@@ -55,7 +59,8 @@ Tube join(const Tube& a, const Tube& b) {
   if (a.is_empty()) return b;
   if (b.is_empty()) return a;
   Tube hull = a;
-  for_each_place(a, [&](std::size_t c, std::size_t item) { hull.set(c, item, join(a.at(c, item), b.at(c, item))); });
+  for_each_place(
+      a, [&](std::size_t c, std::size_t item) { hull.set(c, item, join(a.at(c, item), b.at(c, item))); });
   return hull;
 }
 
@@ -64,7 +69,8 @@ bool leq(const Tube& a, const Tube& b) {
   if (a.is_empty()) return true;
   if (b.is_empty()) return false;
   bool below = true;
-  for_each_place(a, [&](std::size_t c, std::size_t item) { below = below && leq(a.at(c, item), b.at(c, item)); });
+  for_each_place(
+      a, [&](std::size_t c, std::size_t item) { below = below && leq(a.at(c, item), b.at(c, item)); });
   return below;
 }
 
@@ -101,7 +107,8 @@ double measure(const Tube& a) {
   double sum = 0.0;
   for (std::size_t k = 0; k < a.line().slices(); ++k) {
     double widest = 0.0;
-    for (std::size_t c = 0; c < a.dim(); ++c) widest = std::max(widest, a.slice(c, k).hi() - a.slice(c, k).lo());
+    for (std::size_t c = 0; c < a.dim(); ++c)
+      widest = std::max(widest, a.slice(c, k).hi() - a.slice(c, k).lo());
     sum += widest;
   }
   return sum / static_cast<double>(a.line().slices());
@@ -110,17 +117,19 @@ double measure(const Tube& a) {
 namespace {
 
 void require_rows(const char* what, const std::vector<double>& stamps, const std::vector<Box>& values) {
-  require(stamps.size() == values.size() && !values.empty(), "{}: {} stamps for {} values", what, stamps.size(),
-          values.size());
+  require(stamps.size() == values.size() && !values.empty(), "{}: {} stamps for {} values", what,
+          stamps.size(), values.size());
   for (std::size_t row = 0; row < stamps.size(); ++row) {
-    require(row == 0 || stamps[row - 1] < stamps[row], "{}: stamps {} and {} do not increase", what, row, row + 1);
+    require(row == 0 || stamps[row - 1] < stamps[row], "{}: stamps {} and {} do not increase", what, row,
+            row + 1);
     require(values[row].dim() == values.front().dim(), "{}: row {} has another dimension", what, row + 1);
   }
 }
 
 }  // namespace
 
-Tube hold(const std::shared_ptr<const TimeLine>& line, const std::vector<double>& stamps, const std::vector<Box>& values) {
+Tube hold(const std::shared_ptr<const TimeLine>& line, const std::vector<double>& stamps,
+          const std::vector<Box>& values) {
   require_rows("hold", stamps, values);
   Tube tube(line, static_cast<std::size_t>(values.front().dim()));
   // The rows that meet an item: the one that holds at its start, and those whose stamps lie inside it.
@@ -130,19 +139,22 @@ Tube hold(const std::shared_ptr<const TimeLine>& line, const std::vector<double>
     while (next < stamps.size() && stamps[next] <= span.lo()) ++next;
     if (next == 0) continue;
     Box bound = values[next - 1];
-    for (std::size_t row = next; row < stamps.size() && stamps[row] < span.hi(); ++row) bound = join(bound, values[row]);
+    for (std::size_t row = next; row < stamps.size() && stamps[row] < span.hi(); ++row)
+      bound = join(bound, values[row]);
     for (std::size_t c = 0; c < tube.dim(); ++c) tube.set(c, item, bound[static_cast<Eigen::Index>(c)]);
   }
   return tube;
 }
 
-Tube sampled(const std::shared_ptr<const TimeLine>& line, const std::vector<double>& stamps, const std::vector<Box>& values) {
+Tube sampled(const std::shared_ptr<const TimeLine>& line, const std::vector<double>& stamps,
+             const std::vector<Box>& values) {
   require_rows("sampled", stamps, values);
   Tube tube(line, static_cast<std::size_t>(values.front().dim()));
   for (std::size_t row = 0; row < stamps.size(); ++row) {
     const auto gate = line->gate_at(stamps[row]);
     require(gate.has_value(), "sampled: the stamp {} is not an instant of the time line", stamps[row]);
-    for (std::size_t c = 0; c < tube.dim(); ++c) tube.set(c, 2 * *gate, values[row][static_cast<Eigen::Index>(c)]);
+    for (std::size_t c = 0; c < tube.dim(); ++c)
+      tube.set(c, 2 * *gate, values[row][static_cast<Eigen::Index>(c)]);
   }
   return tube;
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tubes: intervals of functions of time, [f-, f+] pointwise (Jaulin 2011, section III-B). Over each open slice an
-// envelope, at each instant a gate. The function may jump: gates and slices bound each other only under a constraint
-// that makes it continuous (der).
+// Tubes: intervals of functions of time, [f-, f+] pointwise (Jaulin 2011, section III-B). Over each open
+// slice an envelope, at each instant a gate. The function may jump: gates and slices bound each other only
+// under a constraint that makes it continuous (der).
 #pragma once
 
 #include <memory>
@@ -18,7 +18,8 @@ class Tube {
   /// The set of items that changed.
   using Delta = ItemSet;
 
-  /// All functions from the time line to R^dim. The line is shared by every tube of a model and by its results.
+  /// All functions from the time line to R^dim. The line is shared by every tube of a model and by its
+  /// results.
   Tube(std::shared_ptr<const TimeLine> line, std::size_t dim);
 
   [[nodiscard]] const TimeLine& line() const { return *line_; }
@@ -37,7 +38,8 @@ class Tube {
   [[nodiscard]] const double* lo(std::size_t c) const { return &lo_[c * items_]; }
   [[nodiscard]] const double* hi(std::size_t c) const { return &hi_[c * items_]; }
 
-  /// Replaces component c at an item by its meet with bound; true if that changed it. An empty meet empties the tube.
+  /// Replaces component c at an item by its meet with bound; true if that changed it. An empty meet empties
+  /// the tube.
   bool meet_at(std::size_t c, std::size_t item, const Interval& bound);
   /// Sets component c at an item; for building given tubes. An empty bound empties the tube.
   void set(std::size_t c, std::size_t item, const Interval& bound);
@@ -64,12 +66,15 @@ Tube::Delta everything(const Tube& a);
 /// The mean over the slices of the widest component.
 double measure(const Tube& a);
 
-/// A given tube that keeps each row's value from its stamp until the next stamp, the last until the end of the line;
-/// before the first stamp nothing is known. values[r] has the tube's dimension; stamps increase strictly.
-/// A slice that a stamp divides is bounded by the hull of the values that meet it.
-Tube hold(const std::shared_ptr<const TimeLine>& line, const std::vector<double>& stamps, const std::vector<Box>& values);
-/// A given tube that is known at its stamps only, which must be instants of the line; nothing is known between them.
-Tube sampled(const std::shared_ptr<const TimeLine>& line, const std::vector<double>& stamps, const std::vector<Box>& values);
+/// A given tube that keeps each row's value from its stamp until the next stamp, the last until the end of
+/// the line; before the first stamp nothing is known. values[r] has the tube's dimension; stamps increase
+/// strictly. A slice that a stamp divides is bounded by the hull of the values that meet it.
+Tube hold(const std::shared_ptr<const TimeLine>& line, const std::vector<double>& stamps,
+          const std::vector<Box>& values);
+/// A given tube that is known at its stamps only, which must be instants of the line; nothing is known
+/// between them.
+Tube sampled(const std::shared_ptr<const TimeLine>& line, const std::vector<double>& stamps,
+             const std::vector<Box>& values);
 
 static_assert(Lattice<Tube>);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Range-only SLAM with an occupancy map (Jaulin, IEEE T-RO 27(5), 2011), built with the C++ API alone: the same problem
-// as models/slam/slam.hcsp, and the same domains.
+// Range-only SLAM with an occupancy map (Jaulin, IEEE T-RO 27(5), 2011), built with the C++ API alone: the
+// same problem as models/slam/slam.hcsp, and the same domains.
 //   slam_builder LOG.csv [--eps 0.05] [--general]     (columns t, speed, heading, range)
 #include <hcsp/hcsp.h>
 
@@ -34,9 +34,10 @@ Log read_log(const std::string& path) {
     if (cells.size() < 3) continue;
     const double t = std::stod(cells[0]);
     log.stamps.push_back(t);
-    const hcsp::Interval error_u = hcsp::join(-hcsp::Interval::of_decimal("0.01"), hcsp::Interval::of_decimal("0.01"));
-    log.speed_and_heading.push_back({hcsp::Interval::of_decimal(cells[1]) + error_u,
-                                     hcsp::Interval::of_decimal(cells[2]) + error_u});
+    const hcsp::Interval error_u =
+        hcsp::join(-hcsp::Interval::of_decimal("0.01"), hcsp::Interval::of_decimal("0.01"));
+    log.speed_and_heading.push_back(
+        {hcsp::Interval::of_decimal(cells[1]) + error_u, hcsp::Interval::of_decimal(cells[2]) + error_u});
     if (cells.size() < 4 || cells[3].empty()) continue;  // no reading
     log.range_stamps.push_back(t);
     log.ranges.push_back({hcsp::Interval::of_decimal(cells[3]) + error_u});
@@ -85,11 +86,12 @@ int main(int argc, char** argv) {
   std::cout << "status " << hcsp::to_string(result.status) << ", " << result.statistics.passes << " passes, "
             << 1e3 * result.statistics.seconds << " ms\n";
   for (const auto& contractor : result.statistics.contractors) {
-    std::cout << "  " << contractor.name << ": " << contractor.calls << " calls, " << 1e3 * contractor.seconds << " ms\n";
+    std::cout << "  " << contractor.name << ": " << contractor.calls << " calls, " << 1e3 * contractor.seconds
+              << " ms\n";
   }
   if (result.explanation) {
-    std::cout << "no solution: " << result.explanation->constraint << ", " << result.explanation->variable << ", "
-              << result.explanation->support.size() << " readings in conflict\n";
+    std::cout << "no solution: " << result.explanation->constraint << ", " << result.explanation->variable
+              << ", " << result.explanation->support.size() << " readings in conflict\n";
     return 0;
   }
   std::cout << "mean width of x " << measure(std::get<hcsp::Tube>(result["x"])) << " m, D- "

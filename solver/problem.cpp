@@ -105,7 +105,8 @@ void Problem::set_readings(TubeVariable tube, std::vector<Reading> readings) {
   impl_->readings[tube.id] = std::move(readings);
 }
 
-SetVariable Problem::set(std::string name, std::size_t dim, double precision, const std::optional<Box>& frame) {
+SetVariable Problem::set(std::string name, std::size_t dim, double precision,
+                         const std::optional<Box>& frame) {
   return {impl_->add(std::move(name), SetInterval(dim, precision, frame), DomainKind::set), dim};
 }
 
@@ -144,7 +145,8 @@ void Problem::constrain_derivative(std::string name, TubeVariable x, const Vecto
 
 void Problem::constrain_union(std::string name, SetVariable set, const SetBuilder& zone) {
   require(zone.dim == set.dim, "Problem: a zone of R^{} for a set of R^{}", zone.dim, set.dim);
-  impl_->graph.add_contractor(make_union_contractor(name, name, set.id, impl_->dag, impl_->relation_of(zone.relation, zone.dim),
+  impl_->graph.add_contractor(make_union_contractor(name, name, set.id, impl_->dag,
+                                                    impl_->relation_of(zone.relation, zone.dim),
                                                     impl_->context(), impl_->fast_paths));
 }
 
@@ -157,8 +159,8 @@ void Problem::constrain_disjoint(std::string name, SetVariable a, SetVariable b)
 void Problem::constrain_meets(std::string name, const SetBuilder& zone, SetVariable set) {
   require(zone.dim == set.dim, "Problem: a zone of R^{} for a set of R^{}", zone.dim, set.dim);
   impl_->graph.add_contractor(make_meets_contractor(name, name, set.id, set.dim, impl_->dag,
-                                                    impl_->relation_of(zone.relation, zone.dim), impl_->context(),
-                                                    impl_->fast_paths));
+                                                    impl_->relation_of(zone.relation, zone.dim),
+                                                    impl_->context(), impl_->fast_paths));
 }
 
 void Problem::constrain_range(std::string name, Expr z, const VectorExpr& a, Expr delta, SetVariable map) {
@@ -166,13 +168,15 @@ void Problem::constrain_range(std::string name, Expr z, const VectorExpr& a, Exp
   impl_->node_of(z);
   impl_->node_of(delta, map.dim);
   const SetInterval& domain = impl_->graph.initial<SetInterval>(map.id);
-  const VariableId dug = impl_->add(name + ".dug space", SetInterval(map.dim, domain.precision()), DomainKind::set, true);
+  const VariableId dug =
+      impl_->add(name + ".dug space", SetInterval(map.dim, domain.precision()), DomainKind::set, true);
   // Theorem 1 digs the open zone, delta < z: with the closed one it would contradict Theorem 2.
   impl_->graph.add_contractor(make_union_contractor(name + ".dug", name, dug, impl_->dag, (delta < z).node(),
                                                     impl_->context(), impl_->fast_paths));
   impl_->graph.add_contractor(make_disjoint_contractor(name + ".free", name, dug, map.id));
   impl_->graph.add_contractor(make_meets_contractor(name + ".impact", name, map.id, map.dim, impl_->dag,
-                                                    (delta == z).node(), impl_->context(), impl_->fast_paths));
+                                                    (delta == z).node(), impl_->context(),
+                                                    impl_->fast_paths));
 }
 
 void Problem::use_fast_paths(bool use) { impl_->fast_paths = use; }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A problem: unknowns with their domains and the constraints between them. This is the primary way into hcsp; the
-// .hcsp language is its first client. A Problem compiles each constraint to contractors on one contractor graph
-// (the paper's Fig. 6) and solves it.
+// A problem: unknowns with their domains and the constraints between them. This is the primary way into hcsp;
+// the .hcsp language is its first client. A Problem compiles each constraint to contractors on one contractor
+// graph (the paper's Fig. 6) and solves it.
 #pragma once
 
 #include <memory>
@@ -21,13 +21,24 @@
 namespace hcsp {
 
 // Handles of the unknowns; valid for the Problem that made them.
-struct RealVariable { VariableId id; };
-struct VectorVariable { VariableId id; std::size_t dim; };
-struct TubeVariable { VariableId id; std::size_t dim; };
-struct SetVariable { VariableId id; std::size_t dim; };
+struct RealVariable {
+  VariableId id;
+};
+struct VectorVariable {
+  VariableId id;
+  std::size_t dim;
+};
+struct TubeVariable {
+  VariableId id;
+  std::size_t dim;
+};
+struct SetVariable {
+  VariableId id;
+  std::size_t dim;
+};
 
-/// { a | relation }: the points a of R^dim for which the relation holds. The relation may mention tubes (at the time
-/// at hand), reals and vectors. Made from Problem::point().
+/// { a | relation }: the points a of R^dim for which the relation holds. The relation may mention tubes (at
+/// the time at hand), reals and vectors. Made from Problem::point().
 struct SetBuilder {
   std::size_t dim;
   Expr relation;
@@ -47,7 +58,8 @@ class Problem {
   Problem& operator=(const Problem&) = delete;
   ~Problem();
 
-  // Unknowns. Names are unique: std::invalid_argument otherwise. A domain is what is known before any constraint.
+  // Unknowns. Names are unique: std::invalid_argument otherwise. A domain is what is known before any
+  // constraint.
   RealVariable real(std::string name, const Interval& domain = {});
   VectorVariable vector(std::string name, const Box& domain);
   /// The one time line of the problem; to be set before the first tube.
@@ -84,12 +96,12 @@ class Problem {
   void constrain_disjoint(std::string name, SetVariable a, SetVariable b);
   /// For every t, zone(t) meets the set.
   void constrain_meets(std::string name, const SetBuilder& zone, SetVariable set);
-  /// z == min over a in map of delta(a), for every t: a rangefinder (Jaulin 2011, equations 1 to 3). The map is
-  /// closed. Decomposed by Theorems 1 and 2 with a hidden dug space of the map's precision.
+  /// z == min over a in map of delta(a), for every t: a rangefinder (Jaulin 2011, equations 1 to 3). The map
+  /// is closed. Decomposed by Theorems 1 and 2 with a hidden dug space of the map's precision.
   void constrain_range(std::string name, Expr z, const VectorExpr& a, Expr delta, SetVariable map);
 
-  /// Whether special cases (the Euclidean ring) may replace the general paths in the constraints stated from here on;
-  /// true by default. The answer is the same, bit for bit.
+  /// Whether special cases (the Euclidean ring) may replace the general paths in the constraints stated from
+  /// here on; true by default. The answer is the same, bit for bit.
   void use_fast_paths(bool use);
 
   /// Propagates to the fixed point. May be called again: each call starts from the declared domains.

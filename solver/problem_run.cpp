@@ -12,10 +12,14 @@ namespace {
 
 Domain domain_of(const ProblemView& problem, const Propagation& run, VariableId id) {
   switch (problem.kinds[id]) {
-    case DomainKind::real: return run.domain<Interval>(id);
-    case DomainKind::vector: return run.domain<Box>(id);
-    case DomainKind::tube: return run.domain<Tube>(id);
-    case DomainKind::set: return run.domain<SetInterval>(id);
+    case DomainKind::real:
+      return run.domain<Interval>(id);
+    case DomainKind::vector:
+      return run.domain<Box>(id);
+    case DomainKind::tube:
+      return run.domain<Tube>(id);
+    case DomainKind::set:
+      return run.domain<SetInterval>(id);
   }
   return Interval::empty();
 }
@@ -44,7 +48,8 @@ class Recorder final : public Propagation::Observer {
   void before_contractor(const Propagation& run, ContractorId id) override {
     if (!options_.keep_trace) return;
     before_.clear();
-    for (const VariableId v : problem_.graph.contractors()[id]->writes()) before_.push_back(domain_of(problem_, run, v));
+    for (const VariableId v : problem_.graph.contractors()[id]->writes())
+      before_.push_back(domain_of(problem_, run, v));
   }
 
   void after_contractor(const Propagation& run, ContractorId id) override {
@@ -55,7 +60,8 @@ class Recorder final : public Propagation::Observer {
       TraceEntry entry{run.passes(), contractor.name(), problem_.graph.variable(v).name(), 0.0, 0.0, {}};
       entry.measure_before = std::visit([](const auto& d) { return measure(d); }, before_[k]);
       entry.measure_after = run.slot(v).open();
-      if (problem_.kinds[v] == DomainKind::tube) add_changes(entry, std::get<Tube>(before_[k]), run.domain<Tube>(v));
+      if (problem_.kinds[v] == DomainKind::tube)
+        add_changes(entry, std::get<Tube>(before_[k]), run.domain<Tube>(v));
       result_.trace.push_back(std::move(entry));
     }
   }
@@ -104,7 +110,8 @@ bool infeasible_with(const ProblemView& problem, const PropagationOptions& optio
     Tube tube = run.domain<Tube>(variable);
     for (std::size_t i = 0; i < readings.size(); ++i) {
       if (readings[i].variable != variable || keep[i]) continue;
-      for (std::size_t c = 0; c < tube.dim(); ++c) tube.set(c, 2 * readings[i].reading->gate, Interval::entire());
+      for (std::size_t c = 0; c < tube.dim(); ++c)
+        tube.set(c, 2 * readings[i].reading->gate, Interval::entire());
     }
     run.set_domain(variable, std::move(tube));
   }
@@ -112,10 +119,11 @@ bool infeasible_with(const ProblemView& problem, const PropagationOptions& optio
 }
 
 // The support of an infeasibility, the readings next to where it showed first.
-void explain(const ProblemView& problem, const PropagationOptions& options, double started, const Failure& failure,
-             Result& result) {
+void explain(const ProblemView& problem, const PropagationOptions& options, double started,
+             const Failure& failure, Result& result) {
   Explanation explanation;
-  if (failure.contractor) explanation.constraint = problem.graph.contractors()[*failure.contractor]->constraint();
+  if (failure.contractor)
+    explanation.constraint = problem.graph.contractors()[*failure.contractor]->constraint();
   explanation.variable = problem.graph.variable(failure.variable).name();
   explanation.time = failure.time;
   const std::vector<NumberedReading> readings = readings_of(problem);
@@ -163,7 +171,8 @@ Result run_problem(const ProblemView& problem, const PropagationOptions& options
   result.statistics.threads = options.threads;
   for (ContractorId id = 0; id < problem.graph.contractors().size(); ++id) {
     const auto& count = run.counts()[id];
-    result.statistics.contractors.push_back({problem.graph.contractors()[id]->name(), count.calls, count.seconds});
+    result.statistics.contractors.push_back(
+        {problem.graph.contractors()[id]->name(), count.calls, count.seconds});
   }
   result.status = ending == Ending::empty ? Status::infeasible
                                           : (ending == Ending::limit ? Status::limit : Status::contracted);

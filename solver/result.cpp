@@ -8,9 +8,12 @@ namespace hcsp {
 
 std::string_view to_string(Status status) {
   switch (status) {
-    case Status::contracted: return "contracted";
-    case Status::infeasible: return "infeasible";
-    case Status::limit: return "limit";
+    case Status::contracted:
+      return "contracted";
+    case Status::infeasible:
+      return "infeasible";
+    case Status::limit:
+      return "limit";
   }
   return "";
 }
@@ -20,7 +23,8 @@ bool ResultVariable::is_empty() const {
 }
 
 const Domain& Result::operator[](std::string_view name) const {
-  const auto found = std::find_if(variables.begin(), variables.end(), [&](const ResultVariable& v) { return v.name == name; });
+  const auto found = std::find_if(variables.begin(), variables.end(),
+                                  [&](const ResultVariable& v) { return v.name == name; });
   if (found == variables.end()) throw std::out_of_range("Result: no variable " + std::string(name));
   return found->domain;
 }

@@ -37,8 +37,9 @@ struct SupportingReading {
   std::string source;
 };
 
-/// Why no solution exists: the constraint whose contractor found a domain empty, the variable that it emptied, when
-/// (for a tube), and readings that are jointly inconsistent: infeasible already when every other one is ignored.
+/// Why no solution exists: the constraint whose contractor found a domain empty, the variable that it
+/// emptied, when (for a tube), and readings that are jointly inconsistent: infeasible already when every
+/// other one is ignored.
 struct Explanation {
   std::string constraint;
   std::string variable;
@@ -73,7 +74,8 @@ struct TraceEntry {
   std::string variable;
   double measure_before;
   double measure_after;
-  /// For a tube: every item that changed, its time span, and its bounds before and after, component by component.
+  /// For a tube: every item that changed, its time span, and its bounds before and after, component by
+  /// component.
   struct Change {
     std::array<double, 2> time;
     std::vector<Interval> before;
@@ -85,7 +87,7 @@ struct TraceEntry {
 struct Result {
   std::string model;
   Status status = Status::contracted;
-  std::vector<ResultVariable> variables;  ///< in the order of declaration, hidden ones left out
+  std::vector<ResultVariable> variables;   ///< in the order of declaration, hidden ones left out
   std::optional<Explanation> explanation;  ///< when infeasible
   Statistics statistics;
   std::vector<PassSnapshot> snapshots;  ///< when asked for

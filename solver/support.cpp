@@ -18,8 +18,8 @@ struct Search {
   const InfeasibleWith& infeasible;
   const std::function<bool()>& stop;
 
-  // A minimal part of `candidates` that conflicts together with `background`; `grown` says that the background has
-  // gained parts since it was last known to be free of conflict.
+  // A minimal part of `candidates` that conflicts together with `background`; `grown` says that the
+  // background has gained parts since it was last known to be free of conflict.
   [[nodiscard]] Parts explain(const Parts& background, bool grown, const Parts& candidates) const {
     if (stop()) return candidates;
     if (grown && infeasible(background)) return {};
@@ -34,7 +34,8 @@ struct Search {
 
 }  // namespace
 
-std::vector<std::size_t> minimal_conflict(const std::vector<std::size_t>& preferred, const InfeasibleWith& infeasible,
+std::vector<std::size_t> minimal_conflict(const std::vector<std::size_t>& preferred,
+                                          const InfeasibleWith& infeasible,
                                           const std::function<bool()>& stop) {
   if (preferred.empty()) return {};
   Parts conflict = Search{infeasible, stop}.explain({}, true, preferred);

@@ -12,10 +12,10 @@ namespace {
 
 constexpr std::size_t kLanes = 64;
 
-// An upper bound of x over a slice of length dt, where x starts at most at x0, ends at most at x1, and its slope stays
-// in v: the maximum over time of the lesser of the two lines that the ends allow. Where the lines cross at a peak, its
-// height is p x0 + q x1 + r, a weighted mean of the ends raised by r. For a given v that is isotone in the ends to the
-// last bit; a narrower v may give a peak that is higher by a rounding error.
+// An upper bound of x over a slice of length dt, where x starts at most at x0, ends at most at x1, and its
+// slope stays in v: the maximum over time of the lesser of the two lines that the ends allow. Where the lines
+// cross at a peak, its height is p x0 + q x1 + r, a weighted mean of the ends raised by r. For a given v that
+// is isotone in the ends to the last bit; a narrower v may give a peak that is higher by a rounding error.
 double slice_upper(double x0, double x1, const Interval& v, const Interval& dt) {
   const double from_start = std::max(x0, up::add(Interval::raw(x0, x0), up::mul(v, dt)).hi());
   const double from_end = std::max(x1, up::sub(Interval::raw(x1, x1), up::mul(v, dt)).hi());
@@ -26,7 +26,8 @@ double slice_upper(double x0, double x1, const Interval& v, const Interval& dt) 
   const Interval slopes = up::add(rise, fall);
   const Interval p = up::div(fall, slopes), q = up::div(rise, slopes);
   const Interval r = up::mul(up::mul(p, rise), dt);
-  const double height = up::add(up::add(up::mul(p, Interval::raw(x0, x0)), up::mul(q, Interval::raw(x1, x1))), r).hi();
+  const double height =
+      up::add(up::add(up::mul(p, Interval::raw(x0, x0)), up::mul(q, Interval::raw(x1, x1))), r).hi();
   return std::min(corner, height);
 }
 
@@ -38,10 +39,15 @@ class DerivativeContractor final : public Contractor {
  public:
   DerivativeContractor(const std::string& name, VariableId x, std::size_t dim, Program program, Inputs inputs,
                        std::shared_ptr<const TimeLine> line)
-      : Contractor(name, name, Cost::linear, with(inputs.variables(), x), {x}), x_(x),
-        f_depends_on_x_(std::count(inputs.variables().begin(), inputs.variables().end(), x) > 0), line_(std::move(line)),
-        program_(std::move(program)), inputs_(std::move(inputs)), evaluation_(program_, kLanes),
-        slopes_(dim, std::vector<Interval>(line_->slices())), steps_(slopes_) {}
+      : Contractor(name, name, Cost::linear, with(inputs.variables(), x), {x}),
+        x_(x),
+        f_depends_on_x_(std::count(inputs.variables().begin(), inputs.variables().end(), x) > 0),
+        line_(std::move(line)),
+        program_(std::move(program)),
+        inputs_(std::move(inputs)),
+        evaluation_(program_, kLanes),
+        slopes_(dim, std::vector<Interval>(line_->slices())),
+        steps_(slopes_) {}
 
   void contract(Access& access) override {
     RoundUpward guard;
@@ -68,9 +74,9 @@ class DerivativeContractor final : public Contractor {
       }
     }
     access.report<Tube>(x_, changes, when);
-    // A second sweep forward, or back, finds nothing: a gate that was narrowed by its neighbour gives back, rounded
-    // outward, at least what the neighbour has. And the gates lie within their slices. So all is settled, unless f
-    // itself depends on x.
+    // A second sweep forward, or back, finds nothing: a gate that was narrowed by its neighbour gives back,
+    // rounded outward, at least what the neighbour has. And the gates lie within their slices. So all is
+    // settled, unless f itself depends on x.
     if (!f_depends_on_x_) access.settled();
   }
 
@@ -137,11 +143,13 @@ class DerivativeContractor final : public Contractor {
     const std::size_t slices = line_->slices();
     for (std::size_t k = 0; k < slices; ++k) {
       const std::size_t before = 2 * k, slice = before + 1, after = before + 2;
-      if (moved.contains(before) || moved.contains(slice)) meet_at(after, up::add(x.at(c, before), steps_[c][k]));
+      if (moved.contains(before) || moved.contains(slice))
+        meet_at(after, up::add(x.at(c, before), steps_[c][k]));
     }
     for (std::size_t k = slices; k-- > 0;) {
       const std::size_t before = 2 * k, slice = before + 1, after = before + 2;
-      if (moved.contains(after) || moved.contains(slice)) meet_at(before, up::sub(x.at(c, after), steps_[c][k]));
+      if (moved.contains(after) || moved.contains(slice))
+        meet_at(before, up::sub(x.at(c, after), steps_[c][k]));
     }
     for (std::size_t k = 0; k < slices && !x.is_empty(); ++k) {
       const std::size_t before = 2 * k, slice = before + 1, after = before + 2;
@@ -173,11 +181,13 @@ class DerivativeContractor final : public Contractor {
 
 }  // namespace
 
-std::unique_ptr<Contractor> make_derivative_contractor(std::string name, VariableId x, std::size_t dim, const Dag& dag,
-                                                       const std::vector<NodeId>& f, const Inputs::Context& context) {
+std::unique_ptr<Contractor> make_derivative_contractor(std::string name, VariableId x, std::size_t dim,
+                                                       const Dag& dag, const std::vector<NodeId>& f,
+                                                       const Inputs::Context& context) {
   Program program(dag, f);
   Inputs inputs(program, context);
-  return std::make_unique<DerivativeContractor>(name, x, dim, std::move(program), std::move(inputs), context.line);
+  return std::make_unique<DerivativeContractor>(name, x, dim, std::move(program), std::move(inputs),
+                                                context.line);
 }
 
 }  // namespace hcsp

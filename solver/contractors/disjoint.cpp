@@ -35,7 +35,8 @@ class DisjointContractor final : public Contractor {
 
 }  // namespace
 
-std::unique_ptr<Contractor> make_disjoint_contractor(std::string name, std::string constraint, VariableId a, VariableId b) {
+std::unique_ptr<Contractor> make_disjoint_contractor(std::string name, std::string constraint, VariableId a,
+                                                     VariableId b) {
   return std::make_unique<DisjointContractor>(std::move(name), std::move(constraint), a, b);
 }
 

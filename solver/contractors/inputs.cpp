@@ -5,7 +5,8 @@
 
 namespace hcsp {
 
-Inputs::Inputs(const Program& program, Context context) : inputs_(program.inputs()), context_(std::move(context)) {
+Inputs::Inputs(const Program& program, Context context)
+    : inputs_(program.inputs()), context_(std::move(context)) {
   for (std::uint32_t i = 0; i < inputs_.size(); ++i) {
     const Input& input = inputs_[i];
     timed_ = timed_ || input.kind == Input::Kind::tube || input.kind == Input::Kind::time;
@@ -32,9 +33,15 @@ void Inputs::open(Access& access) {
     place.items = {};
     place.emptied_at.reset();
     switch (place.kind) {
-      case Input::Kind::real: place.real = &access.edit<Interval>(variables_[v]); break;
-      case Input::Kind::vector: place.vector = &access.edit<Box>(variables_[v]); break;
-      default: place.tube = &access.edit<Tube>(variables_[v]); break;
+      case Input::Kind::real:
+        place.real = &access.edit<Interval>(variables_[v]);
+        break;
+      case Input::Kind::vector:
+        place.vector = &access.edit<Box>(variables_[v]);
+        break;
+      default:
+        place.tube = &access.edit<Tube>(variables_[v]);
+        break;
     }
   }
 }
@@ -43,8 +50,10 @@ ItemSet Inputs::changed(const Access& access) const {
   ItemSet changed;
   bool everywhere = false;
   for (std::size_t v = 0; v < places_.size(); ++v) {
-    if (places_[v].kind == Input::Kind::real) everywhere = everywhere || !access.delta<Interval>(variables_[v]).is_none();
-    if (places_[v].kind == Input::Kind::vector) everywhere = everywhere || !access.delta<Box>(variables_[v]).is_none();
+    if (places_[v].kind == Input::Kind::real)
+      everywhere = everywhere || !access.delta<Interval>(variables_[v]).is_none();
+    if (places_[v].kind == Input::Kind::vector)
+      everywhere = everywhere || !access.delta<Box>(variables_[v]).is_none();
   }
   for (std::size_t i = 0; i < inputs_.size(); ++i) {
     const Input& input = inputs_[i];
@@ -61,11 +70,16 @@ ItemSet Inputs::changed(const Access& access) const {
 Interval Inputs::value(std::uint32_t i, std::size_t item) const {
   const Input& input = inputs_[i];
   switch (input.kind) {
-    case Input::Kind::real: return *places_[place_of_[i]].real;
-    case Input::Kind::vector: return (*places_[place_of_[i]].vector)[input.component];
-    case Input::Kind::time: return context_.line->span(item);
-    case Input::Kind::point: return Interval::entire();
-    default: return places_[place_of_[i]].tube->at(input.component, item_of(input, item));
+    case Input::Kind::real:
+      return *places_[place_of_[i]].real;
+    case Input::Kind::vector:
+      return (*places_[place_of_[i]].vector)[input.component];
+    case Input::Kind::time:
+      return context_.line->span(item);
+    case Input::Kind::point:
+      return Interval::entire();
+    default:
+      return places_[place_of_[i]].tube->at(input.component, item_of(input, item));
   }
 }
 
@@ -103,9 +117,15 @@ void Inputs::report(Access& access) {
   for (std::size_t v = 0; v < places_.size(); ++v) {
     Place& place = places_[v];
     switch (place.kind) {
-      case Input::Kind::real: access.report<Interval>(variables_[v], {place.changed}); break;
-      case Input::Kind::vector: access.report<Box>(variables_[v], {place.changed}); break;
-      default: access.report<Tube>(variables_[v], place.items, place.emptied_at ? std::optional(span_of(*place.emptied_at)) : std::nullopt);
+      case Input::Kind::real:
+        access.report<Interval>(variables_[v], {place.changed});
+        break;
+      case Input::Kind::vector:
+        access.report<Box>(variables_[v], {place.changed});
+        break;
+      default:
+        access.report<Tube>(variables_[v], place.items,
+                            place.emptied_at ? std::optional(span_of(*place.emptied_at)) : std::nullopt);
     }
   }
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Joins the inputs of a program to the domains of a run: loads them for an item of the time line, stores back what the
-// program contracted, and keeps the Deltas that this caused.
+// Joins the inputs of a program to the domains of a run: loads them for an item of the time line, stores back
+// what the program contracted, and keeps the Deltas that this caused.
 #pragma once
 
 #include <memory>
@@ -18,7 +18,7 @@ class Inputs {
  public:
   /// What a program's inputs need to know of the problem that they stand in.
   struct Context {
-    std::shared_ptr<const TimeLine> line;              ///< null when the problem has no time
+    std::shared_ptr<const TimeLine> line;                 ///< null when the problem has no time
     std::shared_ptr<const std::set<VariableId>> sampled;  ///< the tubes that are known at their readings only
   };
   Inputs(const Program& program, Context context);
@@ -39,7 +39,8 @@ class Inputs {
   /// The items at which an input may have changed since the last run.
   [[nodiscard]] ItemSet changed(const Access& access) const;
   [[nodiscard]] Interval value(std::uint32_t input, std::size_t item) const;
-  /// Whether a sampled tube has no reading, and no other bound, at an item: there set contractors learn nothing.
+  /// Whether a sampled tube has no reading, and no other bound, at an item: there set contractors learn
+  /// nothing.
   [[nodiscard]] bool no_reading_at(std::size_t item) const;
   void load(Evaluation& evaluation, std::size_t item, std::size_t lane = 0) const;
   /// Meets the domain of one input at an item with a bound; false when that empties it.

@@ -19,8 +19,11 @@ class MeetsContractor final : public Contractor {
   MeetsContractor(std::string name, std::string constraint, VariableId set, Inputs inputs, Feel feel)
       : Contractor(std::move(name), std::move(constraint), Cost::search, with(inputs.variables(), set),
                    inputs.variables()),
-        set_(set), inputs_(std::move(inputs)), feel_(std::move(feel)),
-        search_(inputs_.contractible().size()), witnesses_(inputs_.items() * search_.faces(), kNoCell),
+        set_(set),
+        inputs_(std::move(inputs)),
+        feel_(std::move(feel)),
+        search_(inputs_.contractible().size()),
+        witnesses_(inputs_.items() * search_.faces(), kNoCell),
         box_(inputs_.contractible().size()) {}
 
   void contract(Access& access) override {
@@ -58,7 +61,8 @@ class MeetsContractor final : public Contractor {
     const std::vector<Interval>& hull = search_.run(set, feel_, box_, mine, theirs);
     if (search_.found_none()) return false;
     bool alive = true;
-    for (std::size_t i = 0; i < contractible.size(); ++i) alive = inputs_.narrow(contractible[i], item, hull[i]) && alive;
+    for (std::size_t i = 0; i < contractible.size(); ++i)
+      alive = inputs_.narrow(contractible[i], item, hull[i]) && alive;
     return alive;
   }
 
@@ -70,11 +74,13 @@ class MeetsContractor final : public Contractor {
   std::vector<Interval> box_;
 };
 
-// The general feeler: one HC4-revise of the relation with the bound point in a block.
+// The general feeler: HC4-revise of the relation with the bound point in a block.
 class RelationFeel {
  public:
   RelationFeel(Program program, const Inputs& inputs, std::size_t dim)
-      : program_(std::make_unique<Program>(std::move(program))), evaluation_(*program_), contractible_(inputs.contractible()),
+      : program_(std::make_unique<Program>(std::move(program))),
+        evaluation_(*program_),
+        contractible_(inputs.contractible()),
         point_(inputs.point()) {
     point_.resize(dim, Inputs::kNone);
   }
@@ -90,8 +96,7 @@ class RelationFeel {
     for (std::size_t axis = 0; axis < point_.size(); ++axis) {
       if (point_[axis] != Inputs::kNone) evaluation_.set(point_[axis], block[axis]);
     }
-    evaluation_.forward();
-    if (!evaluation_.backward(kTrue)) return false;
+    if (!evaluation_.revise(kTrue)) return false;
     for (std::size_t i = 0; i < contractible_.size(); ++i) result[i] = evaluation_.get(contractible_[i]);
     return true;
   }
@@ -104,7 +109,8 @@ class RelationFeel {
   std::size_t item_ = 0;
 };
 
-// norm(a - e) == r with e and r inputs: the operations of the general path, in its order, without the bytecode.
+// norm(a - e) == r with e and r inputs: the operations of the general path, in its order, without the
+// bytecode.
 template <std::size_t kDim>
 class RingFeel {
  public:
@@ -114,7 +120,8 @@ class RingFeel {
   void at(const Inputs&, std::size_t, const std::vector<Interval>& box) {
     for (std::size_t k = 0; k < kDim; ++k) center_[k] = box[center_place_[k]];
     radius_ = box[radius_place_];
-    // Squared distances outside these bounds have roots outside the radius, by more than the rounding of a root.
+    // Squared distances outside these bounds have roots outside the radius, by more than the rounding of a
+    // root.
     constexpr double kMargin = 0x1p-48;
     near_ = std::max(radius_.lo(), 0.0) * up::mul_down(std::max(radius_.lo(), 0.0), 1.0 - kMargin);
     near_ = up::mul_down(near_, 1.0 - kMargin);
@@ -148,8 +155,8 @@ class RingFeel {
       operators::Sqr::backward(square[k], difference[k], unused, unused);
       Interval side = block[ring_.axis[k]], center = center_[k];
       if (difference[k].is_empty()) return false;
-      operators::Sub::backward(difference[k], ring_.point_first[k] ? side : center, ring_.point_first[k] ? center : side,
-                               unused);
+      operators::Sub::backward(difference[k], ring_.point_first[k] ? side : center,
+                               ring_.point_first[k] ? center : side, unused);
       if (side.is_empty() || center.is_empty()) return false;
       result[center_place_[k]] = center;
     }
@@ -172,8 +179,8 @@ struct FeelableRing {
   std::size_t radius;
 };
 
-std::optional<FeelableRing> feelable_ring(const Dag& dag, NodeId relation, const Program& program, const Inputs& inputs,
-                                          std::size_t set_dim) {
+std::optional<FeelableRing> feelable_ring(const Dag& dag, NodeId relation, const Program& program,
+                                          const Inputs& inputs, std::size_t set_dim) {
   const std::optional<Ring> ring = match_ring(dag, relation);
   if (!ring || ring->relation != Op::equal || ring->dim != set_dim) return std::nullopt;
   const auto place_of = [&](NodeId node) -> std::optional<std::size_t> {
@@ -195,7 +202,8 @@ std::optional<FeelableRing> feelable_ring(const Dag& dag, NodeId relation, const
   if (!radius) return std::nullopt;
   used.push_back(*radius);
   std::sort(used.begin(), used.end());
-  if (std::adjacent_find(used.begin(), used.end()) != used.end() || used.size() != inputs.contractible().size()) {
+  if (std::adjacent_find(used.begin(), used.end()) != used.end() ||
+      used.size() != inputs.contractible().size()) {
     return std::nullopt;
   }
   return FeelableRing{*ring, center, *radius};

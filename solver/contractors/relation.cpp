@@ -13,9 +13,13 @@ constexpr std::size_t kLanes = 64;
 class RelationContractor final : public Contractor {
  public:
   RelationContractor(const std::string& name, Program program, Inputs inputs)
-      : Contractor(name, name, inputs.timed() ? Cost::linear : Cost::constant, inputs.variables(), inputs.variables()),
-        program_(std::move(program)), inputs_(std::move(inputs)), evaluation_lanes_(inputs_.timed() ? kLanes : 1),
-        evaluation_(program_, evaluation_lanes_), items_(evaluation_lanes_) {}
+      : Contractor(name, name, inputs.timed() ? Cost::linear : Cost::constant, inputs.variables(),
+                   inputs.variables()),
+        program_(std::move(program)),
+        inputs_(std::move(inputs)),
+        evaluation_lanes_(inputs_.timed() ? kLanes : 1),
+        evaluation_(program_, evaluation_lanes_),
+        items_(evaluation_lanes_) {}
 
   void contract(Access& access) override {
     RoundUpward guard;
@@ -39,11 +43,13 @@ class RelationContractor final : public Contractor {
   bool contract_lanes(Access& access, std::size_t lanes) {
     evaluation_.forward(lanes);
     if (!evaluation_.backward(kTrue, 0, lanes)) {
-      access.fail(inputs_.variables().empty() ? 0 : inputs_.blamed(), inputs_.when(items_[evaluation_.failed_lane()]));
+      access.fail(inputs_.variables().empty() ? 0 : inputs_.blamed(),
+                  inputs_.when(items_[evaluation_.failed_lane()]));
       return false;
     }
     bool alive = true;
-    for (std::size_t lane = 0; lane < lanes; ++lane) alive = inputs_.store(evaluation_, items_[lane], lane) && alive;
+    for (std::size_t lane = 0; lane < lanes; ++lane)
+      alive = inputs_.store(evaluation_, items_[lane], lane) && alive;
     return alive;
   }
 

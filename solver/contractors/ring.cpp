@@ -22,8 +22,11 @@ bool match_term(const Dag& dag, NodeId id, Ring& ring) {
   const DagNode& difference = dag[dag[id].operands[0]];
   if (difference.op != Op::sub) return false;
   for (const bool point_first : {true, false}) {
-    const NodeId point = difference.operands[point_first ? 0 : 1], center = difference.operands[point_first ? 1 : 0];
-    if (dag[point].op != Op::input || dag[point].input.kind != Input::Kind::point || depends_on_point(dag, center)) continue;
+    const NodeId point = difference.operands[point_first ? 0 : 1],
+                 center = difference.operands[point_first ? 1 : 0];
+    if (dag[point].op != Op::input || dag[point].input.kind != Input::Kind::point ||
+        depends_on_point(dag, center))
+      continue;
     const std::size_t axis = dag[point].input.component;
     for (std::size_t k = 0; k < ring.dim; ++k) {
       if (ring.axis[k] == axis) return false;
@@ -57,14 +60,18 @@ std::optional<Ring> match_ring(const Dag& dag, NodeId relation) {
   return std::nullopt;
 }
 
-DiscZone::DiscZone(const Grid& grid, const Ring& ring, const std::array<Interval, 3>& center, const Interval& radius,
-                   Brush brush)
+DiscZone::DiscZone(const Grid& grid, const Ring& ring, const std::array<Interval, 3>& center,
+                   const Interval& radius, Brush brush)
     : grid_(grid), ring_(ring), center_(center), radius_(radius), brush_(brush) {
-  // The general path compares roots: sqrt(s) < r. The root is monotone, so the greatest s whose upward root passes, and
-  // the least s whose downward root fails, decide the same with no root taken.
+  // The general path compares roots: sqrt(s) < r. The root is monotone, so the greatest s whose upward root
+  // passes, and the least s whose downward root fails, decide the same with no root taken.
   const bool strict = ring.relation == Op::less;
-  const auto passes = [&](double s) { return strict ? std::sqrt(s) < radius.lo() : std::sqrt(s) <= radius.lo(); };
-  const auto fails = [&](double s) { return strict ? up::sqrt_down(s) >= radius.hi() : up::sqrt_down(s) > radius.hi(); };
+  const auto passes = [&](double s) {
+    return strict ? std::sqrt(s) < radius.lo() : std::sqrt(s) <= radius.lo();
+  };
+  const auto fails = [&](double s) {
+    return strict ? up::sqrt_down(s) >= radius.hi() : up::sqrt_down(s) > radius.hi();
+  };
   all_up_to_ = -1.0;
   if (radius.lo() == kInfinity || radius.is_empty()) {
     all_up_to_ = -1.0;
@@ -94,15 +101,17 @@ Region DiscZone::inner_bounds() const {
   return region;
 }
 
-// Whether none of the cells lies in the discs of all centers: even the point of their box that is nearest to its
-// farthest center is too far. Along an axis, with centers [l, h], the farthest is max(a - l, h - a) away from a.
+// Whether none of the cells lies in the discs of all centers: even the point of their box that is nearest to
+// its farthest center is too far. Along an axis, with centers [l, h], the farthest is max(a - l, h - a) away
+// from a.
 bool DiscZone::too_far(const Region& cells) const {
   double minus_sum = 0.0;  // negated: upward rounding makes it a lower bound
   for (std::size_t k = 0; k < ring_.dim; ++k) {
     const Interval side = closure(grid_, cells, ring_.axis[k]);
     const double low = center_[k].lo(), high = center_[k].hi();
     const double spread = -0.5 * (low - high);
-    const double farthest = std::max({up::sub_down(side.lo(), low), up::sub_down(high, side.hi()), up::next_down(spread)});
+    const double farthest =
+        std::max({up::sub_down(side.lo(), low), up::sub_down(high, side.hi()), up::next_down(spread)});
     if (farthest > 0) minus_sum += -farthest * farthest;
   }
   return -minus_sum > all_up_to_;
@@ -119,16 +128,16 @@ Decision DiscZone::decide(const Region& cells) const {
   return brush_ == Brush::outer && is_one_cell(cells, ring_.dim) ? Decision::all : Decision::split;
 }
 
-// Along one term's axis, for each layer of children: the greatest squared distance of its points from the centers, and
-// the least one that matters (too_far's for the inner brush, the nearest for the outer), which is negated so that upward
-// sums round it down.
+// Along one term's axis, for each layer of children: the greatest squared distance of its points from the
+// centers, and the least one that matters (too_far's for the inner brush, the nearest for the outer), which
+// is negated so that upward sums round it down.
 struct DiscZone::Bounds {
   std::array<double, 8> greatest{};
   std::array<double, 8> minus_least{};
 };
 
-void DiscZone::bound_children(std::size_t k, const CellIndex& origin, std::int64_t child_edge, bool least_matters,
-                              Bounds& bounds) const {
+void DiscZone::bound_children(std::size_t k, const CellIndex& origin, std::int64_t child_edge,
+                              bool least_matters, Bounds& bounds) const {
   // Eight layers in any dimension, in plain loops that vectorise; in space the last four are not used.
   std::array<double, 9> line{};
   for (std::size_t i = 0; i < 9; ++i) {
@@ -157,15 +166,18 @@ ChildDecisions DiscZone::decide_children(const CellIndex& origin, std::int64_t c
   const bool least_matters = !(cells && inner);
   for (std::size_t k = 0; k < ring_.dim; ++k) bound_children(k, origin, child_edge, least_matters, bounds[k]);
   // A child may hold cells to settle when its least squared distance is at most this.
-  const double some_up_to = inner ? all_up_to_ : (none_from_ < kInfinity ? up::next_down(none_from_) : kInfinity);
+  const double some_up_to =
+      inner ? all_up_to_ : (none_from_ < kInfinity ? up::next_down(none_from_) : kInfinity);
   ChildDecisions decisions = ring_.dim == 2 ? decide_plane(bounds, some_up_to, least_matters)
                                             : decide_space(bounds, some_up_to, least_matters);
-  if (cells) decisions.all |= decisions.some;  // with the outer brush, a cell that may hold a point is painted
+  if (cells)
+    decisions.all |= decisions.some;  // with the outer brush, a cell that may hold a point is painted
   return decisions;
 }
 
 // Eight rows of eight. Two terms add up to the same in either order.
-ChildDecisions DiscZone::decide_plane(const std::array<Bounds, 3>& bounds, double some_up_to, bool least_matters) const {
+ChildDecisions DiscZone::decide_plane(const std::array<Bounds, 3>& bounds, double some_up_to,
+                                      bool least_matters) const {
   const Bounds& along = bounds[ring_.axis[0] == 0 ? 0 : 1];
   const Bounds& across = bounds[ring_.axis[0] == 0 ? 1 : 0];
   ChildDecisions decisions;
@@ -175,19 +187,23 @@ ChildDecisions DiscZone::decide_plane(const std::array<Bounds, 3>& bounds, doubl
   for (std::size_t j = 0; j < 8 && least_matters; ++j) {
     // sum <= limit, both negated, is -sum >= -limit: all but those with -sum <= the double below -limit.
     const double below = up::next_down(-some_up_to);
-    decisions.some |= (~sums_at_most(along.minus_least.data(), across.minus_least[j], below) & 0xff) << (8 * j);
+    decisions.some |= (~sums_at_most(along.minus_least.data(), across.minus_least[j], below) & 0xff)
+                      << (8 * j);
   }
   return decisions;
 }
 
 // Four layers of four rows of four, summed in the order of the terms, as the general path adds them.
-ChildDecisions DiscZone::decide_space(const std::array<Bounds, 3>& bounds, double some_up_to, bool least_matters) const {
+ChildDecisions DiscZone::decide_space(const std::array<Bounds, 3>& bounds, double some_up_to,
+                                      bool least_matters) const {
   ChildDecisions decisions;
   for (std::size_t place = 0; place < 64; ++place) {
     const std::size_t i = place % 4, j = place / 4 % 4, h = place / 16;
-    const std::size_t bit = (i << (2 * ring_.axis[0])) + (j << (2 * ring_.axis[1])) + (h << (2 * ring_.axis[2]));
+    const std::size_t bit =
+        (i << (2 * ring_.axis[0])) + (j << (2 * ring_.axis[1])) + (h << (2 * ring_.axis[2]));
     const double greatest = (bounds[0].greatest[i] + bounds[1].greatest[j]) + bounds[2].greatest[h];
-    const double minus_least = (bounds[0].minus_least[i] + bounds[1].minus_least[j]) + bounds[2].minus_least[h];
+    const double minus_least =
+        (bounds[0].minus_least[i] + bounds[1].minus_least[j]) + bounds[2].minus_least[h];
     decisions.all |= static_cast<std::uint64_t>(greatest <= all_up_to_) << bit;
     decisions.some |= static_cast<std::uint64_t>(least_matters && -minus_least <= some_up_to) << bit;
   }

@@ -13,8 +13,8 @@ namespace hcsp {
 
 namespace {
 
-// Where a zone is unbounded, painting stays within this many cells of the origin: a fixed region, so that the fixed
-// point does not depend on how far the tree has grown.
+// Where a zone is unbounded, painting stays within this many cells of the origin: a fixed region, so that the
+// fixed point does not depend on how far the tree has grown.
 constexpr std::int64_t kHome = 1024;
 
 std::vector<VariableId> with(std::vector<VariableId> variables, VariableId v) {
@@ -30,8 +30,13 @@ class UnionContractor final : public Contractor {
                   std::optional<Ring> ring)
       : Contractor(std::move(name), std::move(constraint), Cost::search, with(inputs.variables(), set),
                    with(inputs.variables(), set)),
-        set_(set), program_(std::move(program)), inputs_(std::move(inputs)), ring_(ring), point_(inputs_.point()),
-        zone_(program_, point_), hull_(program_) {}
+        set_(set),
+        program_(std::move(program)),
+        inputs_(std::move(inputs)),
+        ring_(ring),
+        point_(inputs_.point()),
+        zone_(program_, point_),
+        hull_(program_) {}
 
   void contract(Access& access) override {
     RoundUpward guard;
@@ -47,7 +52,8 @@ class UnionContractor final : public Contractor {
     }
     access.report<SetInterval>(set_, delta);
     inputs_.report(access);
-    if (set.is_empty() || !set.has_outside()) access.settled();  // the inputs did not move, and they alone decide
+    if (set.is_empty() || !set.has_outside())
+      access.settled();  // the inputs did not move, and they alone decide
   }
 
  private:
@@ -90,7 +96,8 @@ class UnionContractor final : public Contractor {
     return zone_bounds(grid);
   }
 
-  // S+ := S+ without what no item's zone may hold. Says nothing unless every item has a reading and a bounded zone.
+  // S+ := S+ without what no item's zone may hold. Says nothing unless every item has a reading and a bounded
+  // zone.
   Region keep_outer(Access& access, SetInterval& set) {
     std::vector<std::optional<Region>> bounds(inputs_.items());
     for (std::size_t item = 0; item < inputs_.items(); ++item) {
@@ -150,21 +157,31 @@ class UnionContractor final : public Contractor {
     return bounds;
   }
 
-  void leave_out(Access& access, const SetInterval& set, const ItemSet& items) {
+  void leave_out(Access& access, SetInterval& set, const ItemSet& items) {
     bool alive = true;
     items.for_each([&](std::size_t item) {
       if (!alive || inputs_.no_reading_at(item) || access.should_stop()) return;
-      if (leave_out_of(set, set.root(), item)) return;
+      // Only points in the zone's bounds matter. Beyond the tree the set is outside, too, where its
+      // background is.
+      inputs_.load(hull_, item);
+      auto bounds = zone_bounds(set.grid());
+      if (!bounds) return;
+      *bounds = clipped(*bounds);
+      set.cover(*bounds);
+      if (leave_out_of(set, set.root(), *bounds, item)) return;
       alive = false;
       access.fail(inputs_.variables().empty() ? set_ : inputs_.blamed(), inputs_.when(item));
     });
   }
 
-  // Contracts the inputs at an item so that no point of the block's cells outside S+ lies in the zone. The points tried
-  // are corners of cells: a choice, but any point that is outside is a sound one. False when nothing is left.
-  bool leave_out_of(const SetInterval& set, const SetInterval::Block& block, std::size_t item) {
-    if (block.all_upper || !may_hold(set, block, item)) return true;
-    if (!block.any_upper) {
+  // Contracts the inputs at an item so that no point of the block's cells outside S+ lies in the zone. The
+  // points tried are corners of cells: a choice, but any point that is outside is a sound one. False when
+  // nothing is left.
+  bool leave_out_of(const SetInterval& set, const SetInterval::Block& block, const Region& bounds,
+                    std::size_t item) {
+    const Region cells = Region::block(block.lo, block.edge, set.dim());
+    if (block.all_upper || !bounds.meets(cells, set.dim()) || !may_hold(set, block, item)) return true;
+    if (!block.any_upper && bounds.holds(cells, set.dim())) {
       for (int corner = 0; corner < (1 << set.dim()); ++corner) {
         if (!leave_out_point(set, block, corner, item)) return false;
       }
@@ -172,7 +189,7 @@ class UnionContractor final : public Contractor {
     }
     if (block.edge == 1) return true;
     for (int corner = 0; corner < (1 << set.dim()); ++corner) {
-      if (!leave_out_of(set, set.part(block, corner), item)) return false;
+      if (!leave_out_of(set, set.part(block, corner), bounds, item)) return false;
     }
     return true;
   }
@@ -181,13 +198,15 @@ class UnionContractor final : public Contractor {
   bool may_hold(const SetInterval& set, const SetInterval::Block& block, std::size_t item) {
     inputs_.load(hull_, item);
     for (std::size_t axis = 0; axis < point_.size(); ++axis) {
-      if (point_[axis] != Inputs::kNone) hull_.set(point_[axis], closure(set.grid(), Region::block(block.lo, block.edge, set.dim()), axis));
+      if (point_[axis] != Inputs::kNone)
+        hull_.set(point_[axis], closure(set.grid(), Region::block(block.lo, block.edge, set.dim()), axis));
     }
     hull_.forward();
     return !operators::is_false(hull_.get(program_.root()));
   }
 
-  bool leave_out_point(const SetInterval& set, const SetInterval::Block& block, int corner, std::size_t item) {
+  bool leave_out_point(const SetInterval& set, const SetInterval::Block& block, int corner,
+                       std::size_t item) {
     inputs_.load(hull_, item);
     for (std::size_t axis = 0; axis < point_.size(); ++axis) {
       if (point_[axis] == Inputs::kNone) continue;
@@ -212,8 +231,8 @@ class UnionContractor final : public Contractor {
 }  // namespace
 
 std::unique_ptr<Contractor> make_union_contractor(std::string name, std::string constraint, VariableId set,
-                                                  const Dag& dag, NodeId relation, const Inputs::Context& context,
-                                                  bool fast_paths) {
+                                                  const Dag& dag, NodeId relation,
+                                                  const Inputs::Context& context, bool fast_paths) {
   Program program(dag, {relation});
   Inputs inputs(program, context);
   std::optional<Ring> ring = fast_paths ? match_ring(dag, relation) : std::nullopt;

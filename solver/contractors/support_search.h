@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// The hull, over the cells of an upper bound S+, of what each cell supports of a box: a branch and bound down the tree.
-// A block whose support lies within the hull so far cannot widen it and is left out; by isotonicity that loses nothing,
-// so the hull is the same as over all cells, one by one. The search starts from witnesses, cells that supported the
-// faces of the box before: while they still do, no face can move and nothing is searched.
+// The hull, over the cells of an upper bound S+, of what each cell supports of a box: a branch and bound down
+// the tree. A block whose support lies within the hull so far cannot widen it and is left out; by isotonicity
+// that loses nothing, so the hull is the same as over all cells, one by one. The search starts from
+// witnesses, cells that supported the faces of the box before: while they still do, no face can move and
+// nothing is searched.
 #pragma once
 
 #include <algorithm>
@@ -22,8 +23,8 @@ class SupportSearch {
   /// Two a dimension: the lower face of interval i is 2 i, the upper 2 i + 1.
   [[nodiscard]] std::size_t faces() const { return 2 * dim_; }
 
-  /// feel(block, result) writes the part of `box` that some point of the block supports, or returns false. `witnesses`
-  /// has a cell a face, or kNoCell, and is kept up to date; `more` are further guesses.
+  /// feel(block, result) writes the part of `box` that some point of the block supports, or returns false.
+  /// `witnesses` has a cell a face, or kNoCell, and is kept up to date; `more` are further guesses.
   template <class Feel>
   const std::vector<Interval>& run(const SetInterval& set, Feel& feel, const std::vector<Interval>& box,
                                    CellIndex* witnesses, const CellIndex* more) {
@@ -32,20 +33,20 @@ class SupportSearch {
     try_witnesses(set, feel, box, more, witnesses);
     for (std::size_t face = 0; face < faces(); ++face) climb(set, feel, box, face, witnesses);
     if (hull_ == box) return hull_;
-    if (set.background() != CellState::outside) search_beyond(set, feel);
+    if (set.background() != CellState::outside) search_beyond(set, feel, witnesses);
     const SetInterval::Block root = set.root();
     if (!root.any_upper) return hull_;
     reserve(root.edge, set.dim());
     Interval* support = &arena_[0];
-    if (feel(box_of(set, set.upper_bounds(root)), support)) explore(set, feel, root, support, support + dim_, witnesses);
+    if (feel(box_of(set, set.upper_bounds(root)), support))
+      explore(set, feel, root, support, support + dim_, witnesses);
     return hull_;
   }
 
   /// Every face has a witness, and it is still a cell of S+.
   [[nodiscard]] bool all_stand(const SetInterval& set, const CellIndex* witnesses) const {
-    return std::all_of(witnesses, witnesses + faces(), [&](const CellIndex& cell) {
-      return cell != kNoCell && may_hold(set.at_cell(cell));
-    });
+    return std::all_of(witnesses, witnesses + faces(),
+                       [&](const CellIndex& cell) { return cell != kNoCell && may_hold(set.at_cell(cell)); });
   }
 
   /// No cell supported anything.
@@ -71,15 +72,12 @@ class SupportSearch {
   }
 
   // How far a support reaches beyond the hull: the order in which to look at blocks. It changes no result.
+  // Bounds may be infinite, so only faces that do reach further are measured.
   [[nodiscard]] double reach(const Interval* support) const {
     double reach = 0.0;
     for (std::size_t i = 0; i < dim_; ++i) {
-      const Interval& known = hull_[i];
-      if (known.is_empty()) {
-        reach += std::min(support[i].hi() - support[i].lo(), 1e100);
-      } else {
-        reach += std::min(std::max(known.lo() - support[i].lo(), 0.0) + std::max(support[i].hi() - known.hi(), 0.0), 1e100);
-      }
+      if (support[i].lo() < hull_[i].lo()) reach += std::min(hull_[i].lo() - support[i].lo(), 1e100);
+      if (support[i].hi() > hull_[i].hi()) reach += std::min(support[i].hi() - hull_[i].hi(), 1e100);
     }
     return reach;
   }
@@ -101,19 +99,21 @@ class SupportSearch {
   template <class Feel>
   void try_cell(const SetInterval& set, Feel& feel, const CellIndex& cell, CellIndex* witnesses) {
     if (!may_hold(set.at_cell(cell))) return;
-    if (feel(box_of(set, Region::block(cell, 1, set.dim())), support_.data())) widen(support_.data(), cell, witnesses);
+    if (feel(box_of(set, Region::block(cell, 1, set.dim())), support_.data()))
+      widen(support_.data(), cell, witnesses);
   }
 
   template <class Feel>
-  void try_witnesses(const SetInterval& set, Feel& feel, const std::vector<Interval>& box, const CellIndex* guesses,
-                     CellIndex* witnesses) {
+  void try_witnesses(const SetInterval& set, Feel& feel, const std::vector<Interval>& box,
+                     const CellIndex* guesses, CellIndex* witnesses) {
     for (std::size_t face = 0; face < faces(); ++face) {
       const CellIndex cell = guesses[face];
       if (cell != kNoCell && !is_supported(box, face)) try_cell(set, feel, cell, witnesses);
     }
   }
 
-  // A face that has lost its witness is mostly supported by a cell close by: steps to better neighbours while there are.
+  // A face that has lost its witness is mostly supported by a cell close by: steps to better neighbours while
+  // there are.
   template <class Feel>
   void climb(const SetInterval& set, Feel& feel, const std::vector<Interval>& box, std::size_t face,
              CellIndex* witnesses) {
@@ -134,14 +134,14 @@ class SupportSearch {
 
   // The space beyond the tree, as the half-spaces around the root.
   template <class Feel>
-  void search_beyond(const SetInterval& set, Feel& feel) {
+  void search_beyond(const SetInterval& set, Feel& feel, CellIndex* witnesses) {
     const std::array<Interval, 3> root = box_of(set, set.reach());
     for (std::size_t axis = 0; axis < set.dim(); ++axis) {
       for (const bool above : {false, true}) {
         std::array<Interval, 3> half;
-        half[axis] = above ? Interval::raw(root[axis].hi(), kInfinity) : Interval::raw(-kInfinity, root[axis].lo());
-        if (!feel(half, support_.data())) continue;
-        for (std::size_t i = 0; i < dim_; ++i) hull_[i] = join(hull_[i], support_[i]);
+        half[axis] =
+            above ? Interval::raw(root[axis].hi(), kInfinity) : Interval::raw(-kInfinity, root[axis].lo());
+        if (feel(half, support_.data())) widen(support_.data(), kNoCell, witnesses);  // no cell to witness it
       }
     }
   }
@@ -160,7 +160,7 @@ class SupportSearch {
     if (!widens(support)) return;
     if (block.edge == 1) return widen(support, block.lo, witnesses);
     std::array<SetInterval::Block, 8> parts;
-    std::array<double, 8> reaches{};  // negative: done
+    std::array<double, 8> reaches{};
     std::size_t count = 0;
     set.for_each_upper_part(block, [&](const SetInterval::Block& part) {
       Interval* of_part = free + count * dim_;
@@ -168,11 +168,15 @@ class SupportSearch {
       reaches[count] = reach(of_part);
       parts[count++] = part;
     });
-    for (std::size_t left = count; left > 0; --left) {  // the part that reaches furthest first
-      const auto best = std::max_element(reaches.begin(), reaches.begin() + static_cast<std::ptrdiff_t>(count));
-      *best = -1.0;
-      const auto i = static_cast<std::size_t>(best - reaches.begin());
-      explore(set, feel, parts[i], free + i * dim_, free + count * dim_, witnesses);
+    std::array<bool, 8> done{};
+    for (std::size_t left = count; left > 0;
+         --left) {  // the part that reaches furthest first; every part in the end
+      std::size_t best = count;
+      for (std::size_t i = 0; i < count; ++i) {
+        if (!done[i] && (best == count || reaches[i] > reaches[best])) best = i;
+      }
+      done[best] = true;
+      explore(set, feel, parts[best], free + best * dim_, free + count * dim_, witnesses);
     }
   }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A zone { a | c(x, a) } of space at an item of the time line: which blocks of cells lie in it for every x of the
-// domains, and which lie outside it for every x. For any relation c written in the language, by its interval extension.
+// A zone { a | c(x, a) } of space at an item of the time line: which blocks of cells lie in it for every x of
+// the domains, and which lie outside it for every x. For any relation c written in the language, by its
+// interval extension.
 #pragma once
 
 #include <array>
@@ -11,8 +12,8 @@
 
 namespace hcsp {
 
-/// The closure of a box of cells along an axis. Contractors decide on closures: what holds on a closure holds on the
-/// half-open cells in it.
+/// The closure of a box of cells along an axis. Contractors decide on closures: what holds on a closure holds
+/// on the half-open cells in it.
 inline Interval closure(const Grid& grid, const Region& cells, std::size_t axis) {
   return Interval::raw(grid.line(cells.lo[axis]), grid.line(cells.hi[axis]));
 }
@@ -24,7 +25,8 @@ inline bool is_one_cell(const Region& cells, std::size_t dim) {
   return true;
 }
 
-/// What painting asks of a zone. `inner` paints the cells that certainly lie in the zone; `outer` those that may.
+/// What painting asks of a zone. `inner` paints the cells that certainly lie in the zone; `outer` those that
+/// may.
 enum class Brush : std::uint8_t { inner, outer };
 
 /// The general zone: the relation's program on a block.
@@ -55,8 +57,9 @@ class RelationZone {
     if (operators::is_false(holds)) return Decision::none;
     const bool one = is_one_cell(cells, grid_->dim());
     if (brush_ == Brush::outer) return one ? Decision::all : Decision::split;
-    // A cell is painted where the relation is certain for all inputs: nowhere in the block, if for some one choice of
-    // the inputs it holds nowhere in it. Without this every cell that stays undecided would be looked at.
+    // A cell is painted where the relation is certain for all inputs: nowhere in the block, if for some one
+    // choice of the inputs it holds nowhere in it. Without this every cell that stays undecided would be
+    // looked at.
     if (one) return Decision::none;
     if (lanes_ == 0) take_corners();
     set_point(corners_, cells, lanes_);

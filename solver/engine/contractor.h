@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A contractor of a constraint c: it removes values from the domains of the variables that c joins, and no solution
-// (completeness and contractance: Jaulin 2011, equation 7). How to write one: docs/contractors.md.
+// A contractor of a constraint c: it removes values from the domains of the variables that c joins, and no
+// solution (completeness and contractance: Jaulin 2011, equation 7). How to write one: docs/contractors.md.
 #pragma once
 
 #include <span>
@@ -25,16 +25,20 @@ class Contractor {
   /// `name` is what statistics call it, `constraint` the constraint that the model states.
   Contractor(std::string name, std::string constraint, Cost cost, std::vector<VariableId> reads,
              std::vector<VariableId> writes)
-      : name_(std::move(name)), constraint_(std::move(constraint)), cost_(cost), reads_(std::move(reads)),
+      : name_(std::move(name)),
+        constraint_(std::move(constraint)),
+        cost_(cost),
+        reads_(std::move(reads)),
         writes_(std::move(writes)) {}
   virtual ~Contractor() = default;
   Contractor(const Contractor&) = delete;
   Contractor& operator=(const Contractor&) = delete;
 
-  /// Contracts the domains of writes() with regard to those of reads(). `access` tells what changed in each since the
-  /// last run (everything, the first time) and takes the Deltas that this run caused, after which the contractor is
-  /// woken by what others do, and by its own changes too unless it says access.settled(). Must be inclusion-isotone: smaller domains never give a
-  /// larger result. A domain found empty is told by access.fail().
+  /// Contracts the domains of writes() with regard to those of reads(). `access` tells what changed in each
+  /// since the last run (everything, the first time) and takes the Deltas that this run caused, after which
+  /// the contractor is woken by what others do, and by its own changes too unless it says access.settled().
+  /// Must be inclusion-isotone: smaller domains never give a larger result. A domain found empty is told by
+  /// access.fail().
   virtual void contract(Access& access) = 0;
 
   [[nodiscard]] const std::string& name() const { return name_; }

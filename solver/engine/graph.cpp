@@ -12,7 +12,8 @@ VariableId ContractorGraph::add_slot(std::string name, bool hidden, std::unique_
 ContractorId ContractorGraph::add_contractor(std::unique_ptr<Contractor> contractor) {
   for (const std::span<const VariableId> variables : {contractor->reads(), contractor->writes()}) {
     for (const VariableId v : variables) {
-      require(v < variables_.size(), "ContractorGraph: contractor {} joins an unknown variable", contractor->name());
+      require(v < variables_.size(), "ContractorGraph: contractor {} joins an unknown variable",
+              contractor->name());
     }
   }
   const auto id = static_cast<ContractorId>(contractors_.size());

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The contractor graph: variables joined to the contractors that read and write them (the paper's Fig. 6). It holds
-// the initial domains; a Propagation works on copies.
+// The contractor graph: variables joined to the contractors that read and write them (the paper's Fig. 6). It
+// holds the initial domains; a Propagation works on copies.
 #pragma once
 
 #include <memory>
@@ -44,7 +44,8 @@ class ContractorGraph {
   /// Adds a contractor; its variables must exist (std::invalid_argument otherwise).
   ContractorId add_contractor(std::unique_ptr<Contractor> contractor);
 
-  /// The initial domain of a variable; D must be the lattice that it was added with (std::bad_cast otherwise).
+  /// The initial domain of a variable; D must be the lattice that it was added with (std::bad_cast
+  /// otherwise).
   template <Lattice D>
   [[nodiscard]] D& initial(VariableId id) {
     return dynamic_cast<TypedSlot<D>&>(variables_.at(id).initial()).domain;

@@ -8,7 +8,9 @@
 namespace hcsp {
 
 Clock steady_clock() {
-  return [] { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); };
+  return [] {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+  };
 }
 
 void Access::fail(VariableId variable, std::optional<std::array<double, 2>> time) {
@@ -21,7 +23,10 @@ bool Access::should_stop() const { return run_.failure_.has_value() || run_.out_
 unsigned Access::threads() const { return run_.options_.threads; }
 
 Propagation::Propagation(const ContractorGraph& graph, PropagationOptions options)
-    : graph_(graph), options_(std::move(options)), started_(options_.clock()), counts_(graph.contractors().size()) {
+    : graph_(graph),
+      options_(std::move(options)),
+      started_(options_.clock()),
+      counts_(graph.contractors().size()) {
   for (const auto& variable : graph.variables()) slots_.push_back(variable.initial().clone());
   const std::size_t contractors = graph.contractors().size();
   for (ContractorId id = 0; id < contractors; ++id) {
@@ -47,7 +52,8 @@ Propagation::Propagation(const ContractorGraph& graph, PropagationOptions option
 }
 
 std::optional<ContractorId> Propagation::next_awake() {
-  const auto found = std::find_if(schedule_.begin(), schedule_.end(), [&](ContractorId id) { return awake_[id]; });
+  const auto found =
+      std::find_if(schedule_.begin(), schedule_.end(), [&](ContractorId id) { return awake_[id]; });
   if (found == schedule_.end()) return std::nullopt;
   return *found;
 }
@@ -75,7 +81,8 @@ void Propagation::run_contractor(ContractorId id, Observer* observer) {
   if (observer != nullptr) observer->after_contractor(*this, id);
 }
 
-// Ends a pass: no contractor that sweeps or searches runs twice in one. True when the threshold says that this was the last.
+// Ends a pass: no contractor that sweeps or searches runs twice in one. True when the threshold says that
+// this was the last.
 bool Propagation::end_pass(Observer* observer) {
   std::fill(ran_this_pass_.begin(), ran_this_pass_.end(), false);
   if (observer != nullptr) observer->after_pass(*this);

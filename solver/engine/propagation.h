@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Propagation: wakes contractors by Delta, cheap before dear, until nothing changes: the fixed point. The contractors
-// are inclusion-isotone, so it is the same for every order. A limit ends a run early; what was computed is still
-// guaranteed.
+// Propagation: wakes contractors by Delta, cheap before dear, until nothing changes: the fixed point. The
+// contractors are inclusion-isotone, so it is the same for every order. A limit ends a run early; what was
+// computed is still guaranteed.
 #pragma once
 
 #include <array>
@@ -27,7 +27,7 @@ struct PropagationOptions {
   unsigned threads = 1;
   double time_limit = 0.0;    ///< seconds; 0 is none
   double spent_before = 0.0;  ///< seconds that preparing the data took, for Statistics::seconds
-  double threshold = 0.0;   ///< a pass that lowers no variable's measure by more than this share ends the run
+  double threshold = 0.0;  ///< a pass that lowers no variable's measure by more than this share ends the run
   Order order = Order::declared;
   std::uint64_t seed = 0;                     ///< of Order::shuffled
   bool keep_snapshots = false;                ///< Result::snapshots
@@ -60,11 +60,12 @@ class Access {
   /// The domain, to be contracted in place; every change is to be reported.
   template <Lattice D>
   [[nodiscard]] D& edit(VariableId id);
-  /// Reports a change of a variable: wakes its readers, and ends the run where the domain is empty. `time` says when,
-  /// for a variable that has a time.
+  /// Reports a change of a variable: wakes its readers, and ends the run where the domain is empty. `time`
+  /// says when, for a variable that has a time.
   template <Lattice D>
   void report(VariableId id, const typename D::Delta& change, std::optional<std::array<double, 2>> time = {});
-  /// Tells that another run right away would change nothing: the contractor's own changes then do not wake it.
+  /// Tells that another run right away would change nothing: the contractor's own changes then do not wake
+  /// it.
   void settled();
   /// The constraint has no solution within the domains; `variable` is the one to blame.
   void fail(VariableId variable, std::optional<std::array<double, 2>> time = {});
@@ -137,8 +138,8 @@ class Propagation {
   std::vector<Access> access_;          // by contractor
   std::vector<ContractorId> schedule_;  // all contractors, in the order in which awake ones run
   std::vector<bool> awake_;
-  std::vector<bool> ran_this_pass_;     // of the contractors that passes are counted by
-  Cost counted_ = Cost::constant;       // their least cost: those of a few operations do not make a pass
+  std::vector<bool> ran_this_pass_;  // of the contractors that passes are counted by
+  Cost counted_ = Cost::constant;    // their least cost: those of a few operations do not make a pass
   std::vector<double> open_;  // the variables' measures at the last pass's end, when there is a threshold
   std::vector<ContractorCount> counts_;
   std::optional<Failure> failure_;
@@ -161,7 +162,8 @@ D& Access::edit(VariableId id) {
 }
 
 template <Lattice D>
-void Access::report(VariableId id, const typename D::Delta& change, std::optional<std::array<double, 2>> time) {
+void Access::report(VariableId id, const typename D::Delta& change,
+                    std::optional<std::array<double, 2>> time) {
   TypedSlot<D>& slot = run_.slot<D>(id);
   if (slot.domain.is_empty()) return fail(id, time);
   if (change.is_none()) return;

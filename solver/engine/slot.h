@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A variable's domain during a run, whatever its lattice: the value, and for each contractor that reads it the Delta
-// since that contractor last looked. The engine handles slots through their base and so knows no concrete domain.
+// A variable's domain during a run, whatever its lattice: the value, and for each contractor that reads it
+// the Delta since that contractor last looked. The engine handles slots through their base and so knows no
+// concrete domain.
 #pragma once
 
 #include <memory>
@@ -47,8 +48,8 @@ class TypedSlot : public Slot {
   void drop(std::size_t reader) override { incoming[reader] = {}; }
 
   D domain;
-  // By reader: the changes since its last run, and those that the run at hand is shown. Two, because a contractor may
-  // change a variable that it also reads.
+  // By reader: the changes since its last run, and those that the run at hand is shown. Two, because a
+  // contractor may change a variable that it also reads.
   std::vector<typename D::Delta> incoming, pending;
 };
 

@@ -30,7 +30,8 @@ NodeId Dag::input(const Input& input) {
 
 NodeId Dag::apply(Op op, std::array<NodeId, 3> operands, int count) {
   const OperatorEntry& entry = operator_entry(op);
-  require(entry.arity == count && count > 0, "Dag: the operator {} takes {} operands, not {}", entry.name, entry.arity, count);
+  require(entry.arity == count && count > 0, "Dag: the operator {} takes {} operands, not {}", entry.name,
+          entry.arity, count);
   for (int k = 0; k < count; ++k) {
     require(operands[static_cast<std::size_t>(k)] < nodes_.size(), "Dag: operand {} is not a node", k);
   }

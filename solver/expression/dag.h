@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The shared directed acyclic graph of a constraint system's expressions. Nodes are hash-consed: the same operator on
-// the same operands is the same node. Children precede parents, so an index order is an evaluation order.
+// The shared directed acyclic graph of a constraint system's expressions. Nodes are hash-consed: the same
+// operator on the same operands is the same node. Children precede parents, so an index order is an
+// evaluation order.
 #pragma once
 
 #include <array>
@@ -17,10 +18,29 @@ using NodeId = std::uint32_t;
 
 /// The operators, in the order of the table in operators.h.
 enum class Op : std::uint8_t {
-  constant, input,
-  neg, add, sub, mul, div, sqr, sqrt, abs, min, max, sin, cos, atan2,
-  less, less_equal, equal, not_equal,
-  logical_and, logical_or, logical_not, if_then_else,
+  constant,
+  input,
+  neg,
+  add,
+  sub,
+  mul,
+  div,
+  sqr,
+  sqrt,
+  abs,
+  min,
+  max,
+  sin,
+  cos,
+  atan2,
+  less,
+  less_equal,
+  equal,
+  not_equal,
+  logical_and,
+  logical_or,
+  logical_not,
+  if_then_else,
 };
 
 /// What a leaf stands for: one scalar that the domains of the variables give.
@@ -49,7 +69,8 @@ struct DagNode {
 
 class Dag {
  public:
-  /// An unknown that is the same wherever the constant stands: [value] is a domain, not a set of values to try.
+  /// An unknown that is the same wherever the constant stands: [value] is a domain, not a set of values to
+  /// try.
   NodeId constant(const Interval& value);
   NodeId input(const Input& input);
   /// Throws std::invalid_argument when the number of operands is not the operator's.

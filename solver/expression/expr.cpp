@@ -53,8 +53,8 @@ Expr if_then_else(Expr condition, Expr then, Expr otherwise) {
   return operate(Op::if_then_else, std::array{condition, then, otherwise});
 }
 
-#define HCSP_WITH_CONSTANTS(op)                                                         \
-  Expr operator op(Expr a, const Interval& b) { return a op constant_beside(a, b); }    \
+#define HCSP_WITH_CONSTANTS(op)                                                      \
+  Expr operator op(Expr a, const Interval& b) { return a op constant_beside(a, b); } \
   Expr operator op(const Interval& a, Expr b) { return constant_beside(b, a) op b; }
 HCSP_WITH_CONSTANTS(+)
 HCSP_WITH_CONSTANTS(-)

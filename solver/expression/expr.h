@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Expressions as a person writes them: x[0] * cos(x[1]) < 3. An Expr is a handle to a node of its constraint system's
-// shared graph (dag.h), so that a common sub-expression is one node however often it is written.
+// Expressions as a person writes them: x[0] * cos(x[1]) < 3. An Expr is a handle to a node of its constraint
+// system's shared graph (dag.h), so that a common sub-expression is one node however often it is written.
 #pragma once
 
 #include <span>
@@ -10,8 +10,8 @@
 
 namespace hcsp {
 
-/// A real-valued or Boolean expression. A relation (<, ==, and, ...) is a Boolean expression; its values are the
-/// subsets of {0, 1}. A relation is false where one of its terms is undefined.
+/// A real-valued or Boolean expression. A relation (<, ==, and, ...) is a Boolean expression; its values are
+/// the subsets of {0, 1}. A relation is false where one of its terms is undefined.
 class Expr {
  public:
   Expr(Dag& dag, NodeId node) : dag_(&dag), node_(node) {}
@@ -23,7 +23,8 @@ class Expr {
   NodeId node_;
 };
 
-/// The general form: op applied to operands, all of one system. Throws std::invalid_argument on a wrong count.
+/// The general form: op applied to operands, all of one system. Throws std::invalid_argument on a wrong
+/// count.
 Expr operate(Op op, std::span<const Expr> operands);
 
 Expr operator-(Expr a);
@@ -52,7 +53,7 @@ Expr operator!(Expr a);
 Expr if_then_else(Expr condition, Expr then, Expr otherwise);
 
 // A constant beside an expression is a constant of that expression's system.
-#define HCSP_WITH_CONSTANTS(op)            \
+#define HCSP_WITH_CONSTANTS(op)                \
   Expr operator op(Expr a, const Interval& b); \
   Expr operator op(const Interval& a, Expr b);
 HCSP_WITH_CONSTANTS(+)

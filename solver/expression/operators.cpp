@@ -35,20 +35,31 @@ NodeId one_sided(const Builder& b, NodeId lesser, NodeId greater, double when_le
 
 NodeId partial(Op op, const Builder& b, int k) {
   switch (op) {
-    case Op::neg: return b.number(-1.0);
-    case Op::add: return b.number(1.0);
-    case Op::sub: return b.number(k == 0 ? 1.0 : -1.0);
-    case Op::mul: return b.operand(1 - k);
+    case Op::neg:
+      return b.number(-1.0);
+    case Op::add:
+      return b.number(1.0);
+    case Op::sub:
+      return b.number(k == 0 ? 1.0 : -1.0);
+    case Op::mul:
+      return b.operand(1 - k);
     case Op::div:
       if (k == 0) return b.of(Op::div, b.number(1.0), b.operand(1));
       return b.of(Op::neg, b.of(Op::div, b.y, b.operand(1)));
-    case Op::sqr: return b.of(Op::mul, b.number(2.0), b.operand(0));
-    case Op::sqrt: return b.of(Op::div, b.number(0.5), b.y);
-    case Op::abs: return one_sided(b, b.operand(0), b.number(0.0), -1.0, 1.0);
-    case Op::min: return one_sided(b, b.operand(k), b.operand(1 - k), 1.0, 0.0);
-    case Op::max: return one_sided(b, b.operand(k), b.operand(1 - k), 0.0, 1.0);
-    case Op::sin: return b.of(Op::cos, b.operand(0));
-    case Op::cos: return b.of(Op::neg, b.of(Op::sin, b.operand(0)));
+    case Op::sqr:
+      return b.of(Op::mul, b.number(2.0), b.operand(0));
+    case Op::sqrt:
+      return b.of(Op::div, b.number(0.5), b.y);
+    case Op::abs:
+      return one_sided(b, b.operand(0), b.number(0.0), -1.0, 1.0);
+    case Op::min:
+      return one_sided(b, b.operand(k), b.operand(1 - k), 1.0, 0.0);
+    case Op::max:
+      return one_sided(b, b.operand(k), b.operand(1 - k), 0.0, 1.0);
+    case Op::sin:
+      return b.of(Op::cos, b.operand(0));
+    case Op::cos:
+      return b.of(Op::neg, b.of(Op::sin, b.operand(0)));
     case Op::atan2: {
       const NodeId squares = b.of(Op::add, b.of(Op::sqr, b.operand(0)), b.of(Op::sqr, b.operand(1)));
       const NodeId quotient = b.of(Op::div, b.operand(1 - k), squares);
@@ -58,7 +69,8 @@ NodeId partial(Op op, const Builder& b, int k) {
       if (k == 1) return b.choose(b.operand(0), b.number(1.0), b.number(0.0));
       if (k == 2) return b.choose(b.operand(0), b.number(0.0), b.number(1.0));
       return no_partial(b.dag, b.y, k);
-    default: return no_partial(b.dag, b.y, k);
+    default:
+      return no_partial(b.dag, b.y, k);
   }
 }
 
@@ -69,14 +81,15 @@ NodeId partial_entry(Dag& dag, NodeId y, int k) { return partial(dag[y].op, Buil
 const OperatorEntry& operator_entry(Op op) {
   static const OperatorEntry kLeaf{"leaf", 0, no_partial};
   switch (op) {
-#define HCSP_ENTRY(name, type, text, arity)                      \
-  case Op::name: {                                               \
+#define HCSP_ENTRY(name, type, text, arity)                        \
+  case Op::name: {                                                 \
     static const OperatorEntry kEntry{text, arity, partial_entry}; \
-    return kEntry;                                               \
+    return kEntry;                                                 \
   }
     HCSP_OPERATORS(HCSP_ENTRY)
 #undef HCSP_ENTRY
-    default: return kLeaf;
+    default:
+      return kLeaf;
   }
 }
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // The operators of expressions: one operator, one struct, and one table of them all. A struct tells
 //   forward    an enclosure of the values on a box of operands (upward rounding: interval_kernel.h);
-//   defined    whether the operator is defined on all of that box (the decoration `def` of IEEE 1788-2015, 11.2);
-//   backward   contracts the operands to the part from which a value in y can come (HC4-revise);
-//   partial    the derivative with regard to operand k, as a node.
+//   defined    whether the operator is defined on all of that box (the decoration `def` of IEEE
+//   1788-2015, 11.2); backward   contracts the operands to the part from which a value in y can come
+//   (HC4-revise); partial    the derivative with regard to operand k, as a node.
 // On tubes every operator acts pointwise, item by item: program.h runs it over ranges of items.
 // Booleans are the non-empty subsets of {0, 1} as intervals. Relations and connectives are total.
 #pragma once
@@ -24,8 +24,8 @@ inline constexpr Interval kEither = Interval::raw(0.0, 1.0);
 struct OperatorEntry {
   std::string_view name;
   int arity;
-  /// The derivative of node y = op(operands) with regard to operand k; throws std::invalid_argument where the operator
-  /// has none (relations, connectives, a choice's condition).
+  /// The derivative of node y = op(operands) with regard to operand k; throws std::invalid_argument where the
+  /// operator has none (relations, connectives, a choice's condition).
   NodeId (*partial)(Dag& dag, NodeId y, int k);
 };
 
@@ -128,8 +128,9 @@ struct Atan2 {
   }
 };
 
-// Relations: {1} only where certain for all operands in the box, {0} only where certain for none. Asked to be true they
-// contract; asked to be false they contract by the negation (the program sees to it that the operands are defined).
+// Relations: {1} only where certain for all operands in the box, {0} only where certain for none. Asked to be
+// true they contract; asked to be false they contract by the negation (the program sees to it that the
+// operands are defined).
 
 inline I from_bounds(bool always, bool never) { return always ? kTrue : (never ? kFalse : kEither); }
 inline bool is_true(const I& y) { return y.lo() == 1.0; }
@@ -142,7 +143,9 @@ inline void at_most(I& a, I& b) {
 inline void equate(I& a, I& b) { a = b = meet(a, b); }
 
 struct Less : Total {
-  static I forward(const I& a, const I& b, const I&) { return from_bounds(a.hi() < b.lo(), a.lo() >= b.hi()); }
+  static I forward(const I& a, const I& b, const I&) {
+    return from_bounds(a.hi() < b.lo(), a.lo() >= b.hi());
+  }
   static void backward(const I& y, I& a, I& b, I&) {
     if (is_true(y)) at_most(a, b);  // the closure of <
     if (is_false(y)) at_most(b, a);
@@ -150,7 +153,9 @@ struct Less : Total {
 };
 
 struct LessEqual : Total {
-  static I forward(const I& a, const I& b, const I&) { return from_bounds(a.hi() <= b.lo(), a.lo() > b.hi()); }
+  static I forward(const I& a, const I& b, const I&) {
+    return from_bounds(a.hi() <= b.lo(), a.lo() > b.hi());
+  }
   static void backward(const I& y, I& a, I& b, I&) {
     if (is_true(y)) at_most(a, b);
     if (is_false(y)) at_most(b, a);
@@ -206,7 +211,8 @@ struct Not : Total {
   static void backward(const I& y, I& a, I&, I&) { a = meet(a, I::raw(1.0 - y.hi(), 1.0 - y.lo())); }
 };
 
-/// Operands: condition, then, otherwise. Total: the program tells the definedness of the branch that is taken.
+/// Operands: condition, then, otherwise. Total: the program tells the definedness of the branch that is
+/// taken.
 struct IfThenElse : Total {
   static I forward(const I& condition, const I& a, const I& b) {
     return is_true(condition) ? a : (is_false(condition) ? b : join(a, b));
@@ -222,13 +228,14 @@ struct IfThenElse : Total {
 }  // namespace operators
 
 /// Every operator: its Op, its struct, its name in the language and its number of operands.
-#define HCSP_OPERATORS(X)                                                                        \
-  X(neg, Neg, "-", 1) X(add, Add, "+", 2) X(sub, Sub, "-", 2) X(mul, Mul, "*", 2)                \
-  X(div, Div, "/", 2) X(sqr, Sqr, "sqr", 1) X(sqrt, Sqrt, "sqrt", 1) X(abs, Abs, "abs", 1)       \
-  X(min, Min, "min", 2) X(max, Max, "max", 2) X(sin, Sin, "sin", 1) X(cos, Cos, "cos", 1)        \
-  X(atan2, Atan2, "atan2", 2) X(less, Less, "<", 2) X(less_equal, LessEqual, "<=", 2)            \
-  X(equal, Equal, "==", 2) X(not_equal, NotEqual, "!=", 2) X(logical_and, And, "and", 2)         \
-  X(logical_or, Or, "or", 2) X(logical_not, Not, "not", 1) X(if_then_else, IfThenElse, "if", 3)
+#define HCSP_OPERATORS(X)                                                                                \
+  X(neg, Neg, "-", 1)                                                                                    \
+  X(add, Add, "+", 2) X(sub, Sub, "-", 2) X(mul, Mul, "*", 2) X(div, Div, "/", 2) X(sqr, Sqr, "sqr", 1)  \
+      X(sqrt, Sqrt, "sqrt", 1) X(abs, Abs, "abs", 1) X(min, Min, "min", 2) X(max, Max, "max", 2)         \
+          X(sin, Sin, "sin", 1) X(cos, Cos, "cos", 1) X(atan2, Atan2, "atan2", 2) X(less, Less, "<", 2)  \
+              X(less_equal, LessEqual, "<=", 2) X(equal, Equal, "==", 2) X(not_equal, NotEqual, "!=", 2) \
+                  X(logical_and, And, "and", 2) X(logical_or, Or, "or", 2) X(logical_not, Not, "not", 1) \
+                      X(if_then_else, IfThenElse, "if", 3)
 
 constexpr bool is_relation(Op op) { return op >= Op::less && op <= Op::not_equal; }
 constexpr bool is_boolean(Op op) { return op >= Op::less && op <= Op::logical_not; }

@@ -43,17 +43,31 @@ Program::Program(const Dag& dag, const std::vector<NodeId>& roots) {
       const int arity = operator_entry(node.op).arity;
       if (!needed[id] || arity == 0 || on_point[id] != with_point) continue;
       assign(id);
-      const auto operand = [&](int k) { return places_.at(node.operands[static_cast<std::size_t>(k < arity ? k : 0)]); };
+      const auto operand = [&](int k) {
+        return places_.at(node.operands[static_cast<std::size_t>(k < arity ? k : 0)]);
+      };
       code_.push_back({node.op, places_.at(id), operand(0), operand(1), operand(2)});
     }
     if (!with_point) point_code_ = code_.size();
   }
   for (const NodeId root : roots) roots_.push_back(places_.at(root));
+  std::vector<bool> used(registers_, false);
+  for (const Instruction& at : code_) {
+    const std::array<std::uint32_t, 3> operands{at.a, at.b, at.c};
+    for (int k = 0; k < operator_entry(at.op).arity; ++k) {
+      const std::uint32_t operand = operands[static_cast<std::size_t>(k)];
+      if (used[operand] && !is_constant(operand)) single_use_ = false;
+      used[operand] = true;
+    }
+  }
 }
 
 Evaluation::Evaluation(const Program& program, std::size_t lanes)
-    : program_(&program), lanes_(lanes), lo_(program.registers() * lanes, -kInfinity),
-      hi_(program.registers() * lanes, kInfinity), defined_(program.registers() * lanes, 1),
+    : program_(&program),
+      lanes_(lanes),
+      lo_(program.registers() * lanes, -kInfinity),
+      hi_(program.registers() * lanes, kInfinity),
+      defined_(program.registers() * lanes, 1),
       needed_(program.registers() * lanes, 0) {
   HCSP_ASSERT(lanes > 0);
   for (std::size_t k = 0; k < program.constants().size(); ++k) {
@@ -79,7 +93,8 @@ void Evaluation::forward_one(const Program::Instruction& at, std::size_t lanes) 
       }
     }
     if constexpr (std::is_same_v<Operator, operators::IfThenElse>) {
-      const bool then_defined = defined_[at.b * lanes_ + lane] != 0, else_defined = defined_[at.c * lanes_ + lane] != 0;
+      const bool then_defined = defined_[at.b * lanes_ + lane] != 0,
+                 else_defined = defined_[at.c * lanes_ + lane] != 0;
       defined = (then_defined || operators::is_false(a)) && (else_defined || operators::is_true(a));
     }
     set(at.result, y, lane);
@@ -91,16 +106,20 @@ void Evaluation::run_forward(std::size_t first, std::size_t last, std::size_t la
   HCSP_ASSERT(lanes <= lanes_);
   for (const Program::Instruction& at : program_->code().subspan(first, last - first)) {
     switch (at.op) {
-#define HCSP_FORWARD(name, type, text, arity) \
-  case Op::name: forward_one<operators::type, is_boolean(Op::name), is_relation(Op::name)>(at, lanes); break;
+#define HCSP_FORWARD(name, type, text, arity)                                             \
+  case Op::name:                                                                          \
+    forward_one<operators::type, is_boolean(Op::name), is_relation(Op::name)>(at, lanes); \
+    break;
       HCSP_OPERATORS(HCSP_FORWARD)
 #undef HCSP_FORWARD
-      default: HCSP_ASSERT(false);
+      default:
+        HCSP_ASSERT(false);
     }
   }
 }
 
-// A register's operands are contracted only where the root needs its value: below an undecided branch nothing is known.
+// A register's operands are contracted only where the root needs its value: below an undecided branch nothing
+// is known.
 template <class Operator, bool kBoolean, bool kRelation>
 bool Evaluation::backward_one(const Program::Instruction& at, std::size_t lanes) {
   for (std::size_t lane = 0; lane < lanes; ++lane) {
@@ -153,13 +172,33 @@ bool Evaluation::backward(const Interval& wanted, std::size_t i, std::size_t lan
     const Program::Instruction& at = code[k];
     bool alive = true;
     switch (at.op) {
-#define HCSP_BACKWARD(name, type, text, arity) \
-  case Op::name: alive = backward_one<operators::type, is_boolean(Op::name), is_relation(Op::name)>(at, lanes); break;
+#define HCSP_BACKWARD(name, type, text, arity)                                                     \
+  case Op::name:                                                                                   \
+    alive = backward_one<operators::type, is_boolean(Op::name), is_relation(Op::name)>(at, lanes); \
+    break;
       HCSP_OPERATORS(HCSP_BACKWARD)
 #undef HCSP_BACKWARD
-      default: HCSP_ASSERT(false);
+      default:
+        HCSP_ASSERT(false);
     }
     if (!alive) return false;
+  }
+  return true;
+}
+
+bool Evaluation::revise(const Interval& wanted) {
+  HCSP_ASSERT(lanes_ == 1);
+  const auto inputs = static_cast<std::ptrdiff_t>(program_->inputs().size());
+  const int rounds = program_->single_use() ? 1 : kRounds;
+  for (int round = 0; round < rounds; ++round) {
+    lo_before_.assign(lo_.begin(), lo_.begin() + inputs);
+    hi_before_.assign(hi_.begin(), hi_.begin() + inputs);
+    forward();
+    if (!backward(wanted)) return false;
+    if (std::equal(lo_before_.begin(), lo_before_.end(), lo_.begin()) &&
+        std::equal(hi_before_.begin(), hi_before_.end(), hi_.begin())) {
+      break;
+    }
   }
   return true;
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The solve phase of range-only SLAM: the shipped room, finer cells, a mission twice as long, and the general path that
-// any other sensor takes. Ratios in one run are what to compare.
+// The solve phase of range-only SLAM: the shipped room, finer cells, a mission twice as long, and the general
+// path that any other sensor takes. Ratios in one run are what to compare.
 #include <benchmark/benchmark.h>
 
 #include <stdexcept>
@@ -10,7 +10,9 @@
 
 namespace {
 
-std::string model_path(const std::string& name) { return std::string(HCSP_SOURCE_DIR) + "/models/slam/" + name; }
+std::string model_path(const std::string& name) {
+  return std::string(HCSP_SOURCE_DIR) + "/models/slam/" + name;
+}
 
 void solve(benchmark::State& state, const std::string& model, const std::string& eps) {
   hcsp::lang::CompileOptions options;

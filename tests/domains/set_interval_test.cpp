@@ -121,7 +121,8 @@ TEST(SetInterval, AFrameKeepsTheCellsThatItsClosedFacesTouch) {
 
 TEST(SetInterval, GrowsWithoutLosingCells) {
   SetInterval set(2, 1.0);
-  const std::map<CellIndex, bool> near{{CellIndex{2, -3, 0}, true}}, far{{CellIndex{100000, -70000, 0}, true}};
+  const std::map<CellIndex, bool> near{{CellIndex{2, -3, 0}, true}},
+      far{{CellIndex{100000, -70000, 0}, true}};
   CellsZone near_zone{near, 2}, far_zone{far, 2};
   set.include(Region::block({2, -3, 0}, 1, 2), near_zone);
   set.include(Region::block({100000, -70000, 0}, 1, 2), far_zone);

@@ -51,13 +51,13 @@ class ZoneProbe {
     return alive ? box : std::vector<Interval>(dim, Interval::empty());
   }
 
-  /// One HC4-revise: the part of each variable's domain that the closed cell supports; false when there is
+  /// HC4-revise: the part of each variable's domain that the closed cell supports; false when there is
   /// none.
   bool support(const Grid& grid, const CellIndex& cell, const std::vector<Interval>& variables,
                std::vector<Interval>& result) {
     load(grid, cell, variables);
     RoundUpward guard;
-    if (!evaluation_.backward(kTrue)) return false;
+    if (!evaluation_.revise(kTrue)) return false;
     result = variables;
     for (std::uint32_t i = 0; i < program_.inputs().size(); ++i) {
       const Input& input = program_.inputs()[i];
