@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "lang/catalogue/entries.h"
+#include "lang/source.h"
 
 namespace hcsp::lang {
 
@@ -34,14 +35,16 @@ std::string code_id(Code code) { return fmt::format("E{:03}", static_cast<unsign
 
 namespace {
 
+// Examples may hold bytes that no terminal can show: that is what they are about.
 std::string indented(std::string_view text) {
-  std::string result;
-  for (std::size_t at = 0; at <= text.size();) {
-    const std::size_t end = std::min(text.find('\n', at), text.size());
-    result += fmt::format("    {}\n", text.substr(at, end - at));
-    at = end + 1;
+  std::string result = "    ";
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t length = code_point_length(text, at);
+    result += length == 0 ? "\xEF\xBF\xBD" : text.substr(at, length);
+    if (text[at] == '\n') result += "    ";
+    at += std::max<std::size_t>(length, 1);
   }
-  return result;
+  return result + "\n";
 }
 
 }  // namespace

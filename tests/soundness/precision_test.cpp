@@ -48,9 +48,10 @@ void expect_as_tight(const Result& result, const naive::Solution& plain, const s
   EXPECT_LE(width, 1.02 * plain.mean_width()) << what;
   EXPECT_GE(dug, 0.99 * plain.dug_area()) << what;
   EXPECT_LE(map, 1.02 * plain.map_area()) << what;
-  // Much tighter would be suspect. The plain cone learns nothing of x from the angle, hcsp does.
+  // Much tighter would be suspect. The plain cone learns nothing of x from the angle, hcsp does,
+  // and digs with it.
   EXPECT_GE(width, 0.9 * plain.mean_width()) << what;
-  EXPECT_LE(dug, 1.01 * plain.dug_area()) << what;
+  EXPECT_LE(dug, 1.03 * plain.dug_area()) << what;
 }
 
 struct Variant {
