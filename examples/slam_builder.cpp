@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Range-only SLAM with an occupancy map (Jaulin, IEEE T-RO 27(5), 2011), built with the C++ API alone: the
 // same problem as models/slam/slam.hcsp, and the same domains.
-//   slam_builder LOG.csv [--eps 0.05] [--general]     (columns t, speed, heading, range)
+//   slam_builder LOG.csv [--eps 0.05] [--general] [--json FILE]     (columns t, speed, heading, range)
 #include <hcsp/hcsp.h>
+#include <hcsp/solver/report/json.h>
 
 #include <cstdlib>
 #include <fstream>
@@ -49,14 +50,16 @@ Log read_log(const std::string& path) {
 
 int main(int argc, char** argv) {
   if (argc < 2) {
-    std::cerr << "usage: slam_builder LOG.csv [--eps E] [--general]\n";
+    std::cerr << "usage: slam_builder LOG.csv [--eps E] [--general] [--json FILE]\n";
     return 2;
   }
   double eps = 0.05;
   bool general = false;
+  std::string json;
   for (int i = 2; i < argc; ++i) {
     if (std::string(argv[i]) == "--eps" && i + 1 < argc) eps = std::atof(argv[++i]);
     if (std::string(argv[i]) == "--general") general = true;
+    if (std::string(argv[i]) == "--json" && i + 1 < argc) json = argv[++i];
   }
   const Log log = read_log(argv[1]);
 
@@ -83,6 +86,7 @@ int main(int argc, char** argv) {
   slam.constrain_meets("impact", {2, delta == slam(z)[0]}, M);
 
   const hcsp::Result result = slam.propagate();
+  if (!json.empty()) std::ofstream(json) << hcsp::to_json(result);
   std::cout << "status " << hcsp::to_string(result.status) << ", " << result.statistics.passes << " passes, "
             << 1e3 * result.statistics.seconds << " ms\n";
   for (const auto& contractor : result.statistics.contractors) {

@@ -29,8 +29,8 @@ struct Problem::Impl {
   [[nodiscard]] Inputs::Context context() const { return {line, sampled}; }
 
   template <Lattice D>
-  VariableId add(std::string variable, D domain, DomainKind kind, bool hidden = false) {
-    const VariableId id = graph.add_variable(std::move(variable), std::move(domain), hidden);
+  VariableId add(const std::string& variable, D domain, DomainKind kind, bool hidden = false) {
+    const VariableId id = graph.add_variable(variable, std::move(domain), hidden);
     kinds.push_back(kind);
     return id;
   }
@@ -70,12 +70,12 @@ Problem::Problem(std::string name) : impl_(std::make_unique<Impl>()) { impl_->na
 Problem::~Problem() = default;
 
 RealVariable Problem::real(std::string name, const Interval& domain) {
-  return {impl_->add(std::move(name), domain, DomainKind::real)};
+  return {impl_->add(name, domain, DomainKind::real)};
 }
 
 VectorVariable Problem::vector(std::string name, const Box& domain) {
   require(domain.dim() > 0, "Problem: the vector {} has no components", name);
-  return {impl_->add(std::move(name), domain, DomainKind::vector), static_cast<std::size_t>(domain.dim())};
+  return {impl_->add(name, domain, DomainKind::vector), static_cast<std::size_t>(domain.dim())};
 }
 
 void Problem::set_time_line(TimeLine line) {
@@ -93,7 +93,7 @@ TubeVariable Problem::tube(std::string name, std::size_t dim) {
 TubeVariable Problem::tube(std::string name, const Tube& domain) {
   impl_->need_line();
   require(domain.line() == *impl_->line, "Problem: the tube {} stands on another time line", name);
-  return {impl_->add(std::move(name), domain, DomainKind::tube), domain.dim()};
+  return {impl_->add(name, domain, DomainKind::tube), domain.dim()};
 }
 
 void Problem::set_readings(TubeVariable tube, std::vector<Reading> readings) {
@@ -107,7 +107,7 @@ void Problem::set_readings(TubeVariable tube, std::vector<Reading> readings) {
 
 SetVariable Problem::set(std::string name, std::size_t dim, double precision,
                          const std::optional<Box>& frame) {
-  return {impl_->add(std::move(name), SetInterval(dim, precision, frame), DomainKind::set), dim};
+  return {impl_->add(name, SetInterval(dim, precision, frame), DomainKind::set), dim};
 }
 
 Expr Problem::constant(const Interval& value) { return {impl_->dag, impl_->dag.constant(value)}; }

@@ -100,9 +100,10 @@ std::vector<NumberedReading> readings_of(const ProblemView& problem) {
   return readings;
 }
 
-// Whether the problem is infeasible with only some of its readings: the others are unknown at their instants.
-bool infeasible_with(const ProblemView& problem, const PropagationOptions& options,
-                     const std::vector<NumberedReading>& readings, const std::vector<std::size_t>& kept) {
+// How the problem fails with only some of its readings, if it does: the others are unknown at their instants.
+std::optional<Failure> failure_with(const ProblemView& problem, const PropagationOptions& options,
+                                    const std::vector<NumberedReading>& readings,
+                                    const std::vector<std::size_t>& kept) {
   std::vector<bool> keep(readings.size(), false);
   for (const std::size_t i : kept) keep[i] = true;
   Propagation run(problem.graph, options);
@@ -115,46 +116,50 @@ bool infeasible_with(const ProblemView& problem, const PropagationOptions& optio
     }
     run.set_domain(variable, std::move(tube));
   }
-  return run.run() == Ending::empty;
+  run.run();
+  return run.failure();
 }
 
-// The support of an infeasibility, the readings next to where it showed first.
-void explain(const ProblemView& problem, const PropagationOptions& options, double started,
-             const Failure& failure, Result& result) {
-  Explanation explanation;
+void tell_failure(const ProblemView& problem, const Failure& failure, Explanation& explanation) {
   if (failure.contractor)
     explanation.constraint = problem.graph.contractors()[*failure.contractor]->constraint();
   explanation.variable = problem.graph.variable(failure.variable).name();
   explanation.time = failure.time;
-  const std::vector<NumberedReading> readings = readings_of(problem);
-  if (options.explain && !readings.empty()) {
-    const auto time_of = [&](std::size_t i) { return problem.line->instants()[readings[i].reading->gate]; };
-    std::vector<std::size_t> preferred(readings.size());
-    for (std::size_t i = 0; i < preferred.size(); ++i) preferred[i] = i;
-    if (failure.time) {
-      const double when = (*failure.time)[0];
-      std::stable_sort(preferred.begin(), preferred.end(), [&](std::size_t i, std::size_t j) {
-        return std::abs(time_of(i) - when) < std::abs(time_of(j) - when);
-      });
-    }
-    const auto stop = [&] {
-      const bool cancelled = options.cancel != nullptr && options.cancel->load(std::memory_order_relaxed);
-      const bool late = options.time_limit > 0 && options.clock() - started >= options.time_limit;
-      if (cancelled || late) explanation.support_is_complete = false;
-      return cancelled || late;
-    };
-    PropagationOptions probe = options;
-    probe.keep_snapshots = probe.keep_trace = false;
-    probe.progress = {};
-    const auto infeasible = [&](const std::vector<std::size_t>& kept) {
-      return infeasible_with(problem, probe, readings, kept);
-    };
-    for (const std::size_t i : minimal_conflict(preferred, infeasible, stop)) {
-      explanation.support.push_back(
-          {problem.graph.variable(readings[i].variable).name(), time_of(i), readings[i].reading->source});
-    }
+}
+
+// A minimal conflict among the readings, those next to where the failure showed first; and how the problem
+// fails with that conflict alone, which is nearer to the cause than where a run with all readings happened to
+// notice.
+void find_support(const ProblemView& problem, const PropagationOptions& options, double started,
+                  const std::vector<NumberedReading>& readings, Explanation& explanation) {
+  const auto time_of = [&](std::size_t i) { return problem.line->instants()[readings[i].reading->gate]; };
+  std::vector<std::size_t> preferred(readings.size());
+  for (std::size_t i = 0; i < preferred.size(); ++i) preferred[i] = i;
+  if (explanation.time) {
+    const double when = (*explanation.time)[0];
+    std::stable_sort(preferred.begin(), preferred.end(), [&](std::size_t i, std::size_t j) {
+      return std::abs(time_of(i) - when) < std::abs(time_of(j) - when);
+    });
   }
-  result.explanation = std::move(explanation);
+  const auto stop = [&] {
+    const bool cancelled = options.cancel != nullptr && options.cancel->load(std::memory_order_relaxed);
+    const bool late = options.time_limit > 0 && options.clock() - started >= options.time_limit;
+    if (cancelled || late) explanation.support_is_complete = false;
+    return cancelled || late;
+  };
+  PropagationOptions probe = options;
+  probe.keep_snapshots = probe.keep_trace = false;
+  probe.progress = {};
+  const auto infeasible = [&](const std::vector<std::size_t>& kept) {
+    return failure_with(problem, probe, readings, kept).has_value();
+  };
+  const std::vector<std::size_t> support = minimal_conflict(preferred, infeasible, stop);
+  for (const std::size_t i : support) {
+    explanation.support.push_back(
+        {problem.graph.variable(readings[i].variable).name(), time_of(i), readings[i].reading->source});
+  }
+  if (const auto failure = failure_with(problem, probe, readings, support))
+    tell_failure(problem, *failure, explanation);
 }
 
 }  // namespace
@@ -168,7 +173,7 @@ Result run_problem(const ProblemView& problem, const PropagationOptions& options
   const Ending ending = run.run(&recorder);
   result.statistics.seconds = options.spent_before + options.clock() - started;
   result.statistics.passes = run.passes();
-  result.statistics.threads = options.threads;
+  result.statistics.threads = 1;  // propagation runs on the calling thread
   for (ContractorId id = 0; id < problem.graph.contractors().size(); ++id) {
     const auto& count = run.counts()[id];
     result.statistics.contractors.push_back(
@@ -177,7 +182,13 @@ Result run_problem(const ProblemView& problem, const PropagationOptions& options
   result.status = ending == Ending::empty ? Status::infeasible
                                           : (ending == Ending::limit ? Status::limit : Status::contracted);
   result.variables = declared_domains(problem, run);
-  if (run.failure()) explain(problem, options, started, *run.failure(), result);
+  if (run.failure()) {
+    Explanation explanation;
+    tell_failure(problem, *run.failure(), explanation);
+    const std::vector<NumberedReading> readings = readings_of(problem);
+    if (options.explain && !readings.empty()) find_support(problem, options, started, readings, explanation);
+    result.explanation = std::move(explanation);
+  }
   return result;
 }
 

@@ -174,7 +174,11 @@ void Compiler::make_tube(const Symbol& symbol) {
   auto given = build_tube(model_, plan->second, problem_->time_line());
   if (!given) return;
   const TubeVariable tube = problem_->tube(name, given->domain);
-  if (!given->readings.empty()) problem_->set_readings(tube, std::move(given->readings));
+  // Also when every reading is blank: the tube is then known nowhere, but it is known at its samples only.
+  const bool is_sampled = std::any_of(plan->second.begin(), plan->second.end(), [](const TubePart& part) {
+    return part.kind == TubePart::Kind::sampled;
+  });
+  if (is_sampled) problem_->set_readings(tube, std::move(given->readings));
   unknowns_.handles.emplace(&symbol, tube);
 }
 

@@ -3,9 +3,9 @@
 
 namespace hcsp {
 
-VariableId ContractorGraph::add_slot(std::string name, bool hidden, std::unique_ptr<Slot> slot) {
+VariableId ContractorGraph::add_slot(const std::string& name, bool hidden, std::unique_ptr<Slot> slot) {
   require(names_.insert(name).second, "ContractorGraph: there is a variable {} already", name);
-  variables_.emplace_back(std::move(name), hidden, std::move(slot));
+  variables_.emplace_back(name, hidden, std::move(slot));
   return static_cast<VariableId>(variables_.size() - 1);
 }
 

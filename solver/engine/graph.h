@@ -37,8 +37,8 @@ class ContractorGraph {
 
   /// Adds a variable of any lattice. Throws std::invalid_argument when the name is taken.
   template <Lattice D>
-  VariableId add_variable(std::string name, D initial, bool hidden = false) {
-    return add_slot(std::move(name), hidden, std::make_unique<TypedSlot<D>>(std::move(initial)));
+  VariableId add_variable(const std::string& name, D initial, bool hidden = false) {
+    return add_slot(name, hidden, std::make_unique<TypedSlot<D>>(std::move(initial)));
   }
 
   /// Adds a contractor; its variables must exist (std::invalid_argument otherwise).
@@ -56,7 +56,7 @@ class ContractorGraph {
   [[nodiscard]] const std::vector<std::unique_ptr<Contractor>>& contractors() const { return contractors_; }
 
  private:
-  VariableId add_slot(std::string name, bool hidden, std::unique_ptr<Slot> slot);
+  VariableId add_slot(const std::string& name, bool hidden, std::unique_ptr<Slot> slot);
 
   std::vector<Variable> variables_;
   std::unordered_set<std::string> names_;

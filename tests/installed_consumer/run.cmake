@@ -11,6 +11,20 @@ endfunction()
 file(REMOVE_RECURSE ${WORK_DIR})
 run(${CMAKE_COMMAND} --install ${BUILD_DIR} --prefix ${WORK_DIR}/prefix)
 run(${CMAKE_COMMAND} -S ${CMAKE_CURRENT_LIST_DIR} -B ${WORK_DIR}/build -G ${GENERATOR}
-  -DCMAKE_CXX_COMPILER=${CXX} -DCMAKE_BUILD_TYPE=${BUILD_TYPE} -DCMAKE_PREFIX_PATH=${WORK_DIR}/prefix)
+  -DCMAKE_CXX_COMPILER=${CXX} -DCMAKE_BUILD_TYPE=${BUILD_TYPE} -DCMAKE_PREFIX_PATH=${WORK_DIR}/prefix
+  -DEXAMPLES_DIR=${CMAKE_CURRENT_LIST_DIR}/../../examples)
 run(${CMAKE_COMMAND} --build ${WORK_DIR}/build)
 run(${WORK_DIR}/build/consumer)
+
+# The SLAM problem built with the C++ API alone gives the domains of the .hcsp model, bit for bit.
+set(slam ${CMAKE_CURRENT_LIST_DIR}/../../models/slam)
+run(${WORK_DIR}/build/slam_builder ${slam}/room.csv --json ${WORK_DIR}/built.json)
+run(${WORK_DIR}/prefix/bin/hcsp-solve ${slam}/slam.hcsp --quiet -o ${WORK_DIR}/model.json)
+file(READ ${WORK_DIR}/built.json built)
+file(READ ${WORK_DIR}/model.json model)
+string(JSON built GET ${built} variables)
+string(JSON model GET ${model} variables)
+string(JSON same EQUAL ${built} ${model})
+if(NOT same)
+  message(FATAL_ERROR "slam_builder and slam.hcsp give different domains")
+endif()

@@ -65,8 +65,8 @@ TEST_F(Tool, QuietPrintsNothing) { EXPECT_EQ(run(model(kCircle) + " --quiet").te
 
 TEST_F(Tool, WritesEveryFormat) {
   const Finished result = run(model("time t in [0, 1] step 0.5;\nvar x : tube real in [0, 1];\n"
-                               "var M : set real[2] in [-1, 1]^2 precision 0.5;") +
-                         " -o a.json -o b.csv -o c.svg -o d.html --trace e.json --graph f.dot --quiet");
+                                    "var M : set real[2] in [-1, 1]^2 precision 0.5;") +
+                              " -o a.json -o b.csv -o c.svg -o d.html --trace e.json --graph f.dot --quiet");
   EXPECT_EQ(result.status, 0) << result.text;
   EXPECT_EQ(nlohmann::json::parse(text_of("a.json"))["model"], "m");
   EXPECT_THAT(text_of("b.csv"), testing::StartsWith("t_lo,t_hi"));
