@@ -149,7 +149,7 @@ class Lexer {
 
   void punctuation() {
     for (const Punctuation& candidate : kPunctuation) {
-      if (sees(candidate.text)) {
+      if (candidate.text.front() == peek() && sees(candidate.text)) {
         const std::size_t begin = at_;
         at_ += candidate.text.size();
         return emit(candidate.kind, begin);

@@ -228,14 +228,30 @@ struct IfThenElse : Total {
 }  // namespace operators
 
 /// Every operator: its Op, its struct, its name in the language and its number of operands.
-#define HCSP_OPERATORS(X)                                                                                \
-  X(neg, Neg, "-", 1)                                                                                    \
-  X(add, Add, "+", 2) X(sub, Sub, "-", 2) X(mul, Mul, "*", 2) X(div, Div, "/", 2) X(sqr, Sqr, "sqr", 1)  \
-      X(sqrt, Sqrt, "sqrt", 1) X(abs, Abs, "abs", 1) X(min, Min, "min", 2) X(max, Max, "max", 2)         \
-          X(sin, Sin, "sin", 1) X(cos, Cos, "cos", 1) X(atan2, Atan2, "atan2", 2) X(less, Less, "<", 2)  \
-              X(less_equal, LessEqual, "<=", 2) X(equal, Equal, "==", 2) X(not_equal, NotEqual, "!=", 2) \
-                  X(logical_and, And, "and", 2) X(logical_or, Or, "or", 2) X(logical_not, Not, "not", 1) \
-                      X(if_then_else, IfThenElse, "if", 3)
+// clang-format off
+#define HCSP_OPERATORS(X)              \
+  X(neg, Neg, "-", 1)                  \
+  X(add, Add, "+", 2)                  \
+  X(sub, Sub, "-", 2)                  \
+  X(mul, Mul, "*", 2)                  \
+  X(div, Div, "/", 2)                  \
+  X(sqr, Sqr, "sqr", 1)                \
+  X(sqrt, Sqrt, "sqrt", 1)             \
+  X(abs, Abs, "abs", 1)                \
+  X(min, Min, "min", 2)                \
+  X(max, Max, "max", 2)                \
+  X(sin, Sin, "sin", 1)                \
+  X(cos, Cos, "cos", 1)                \
+  X(atan2, Atan2, "atan2", 2)          \
+  X(less, Less, "<", 2)                \
+  X(less_equal, LessEqual, "<=", 2)    \
+  X(equal, Equal, "==", 2)             \
+  X(not_equal, NotEqual, "!=", 2)      \
+  X(logical_and, And, "and", 2)        \
+  X(logical_or, Or, "or", 2)           \
+  X(logical_not, Not, "not", 1)        \
+  X(if_then_else, IfThenElse, "if", 3)
+// clang-format on
 
 constexpr bool is_relation(Op op) { return op >= Op::less && op <= Op::not_equal; }
 constexpr bool is_boolean(Op op) { return op >= Op::less && op <= Op::logical_not; }

@@ -103,6 +103,25 @@ TEST_F(Tool, ExplainsInfeasibility) {
   EXPECT_EQ(nlohmann::json::parse(text_of("a.json"))["status"], "infeasible");
 }
 
+TEST_F(Tool, StopsAtALimitWithWhatItHas) {
+  const auto slam = std::filesystem::path(HCSP_SOURCE_DIR) / "models" / "slam" / "slam.hcsp";
+  const Finished result = run(slam.string() + " --time-limit 1e-9 -o a.json");
+  EXPECT_EQ(result.status, 3);
+  EXPECT_EQ(nlohmann::json::parse(text_of("a.json"))["status"], "limit");
+}
+
+TEST_F(Tool, NamesTheReadingsInConflict) {
+  std::ofstream(folder_ / "log.csv") << "t,range\n0,1\n0.5,9\n1,1\n";
+  const Finished result =
+      run(model("data log = csv(\"log.csv\");\ntime t in [0, 1] step 0.5;\nvar x : tube real;\n"
+                "given z : tube real = sampled(log.t, log.range) +- 0.1;\n"
+                "var v : tube real in [-1, 1];\n"
+                "constraint motion: der(x) == v;\nconstraint seen: x == z;"));
+  EXPECT_EQ(result.status, 0);
+  EXPECT_THAT(result.text, HasSubstr("jointly inconsistent: 2 readings"));
+  EXPECT_THAT(result.text, HasSubstr("z(0.5)  log.csv:3 column range"));
+}
+
 TEST_F(Tool, ChecksWithoutSolving) {
   const Finished good = run(model(kCircle) + " --check");
   EXPECT_EQ(good.status, 0);
