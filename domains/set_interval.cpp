@@ -244,25 +244,23 @@ void SetInterval::sum_up(Block& block) const {
   }
 }
 
-// The children of a node that meet a box of cells, or lie wholly in it.
+// The children of a node that meet a box of cells, or lie wholly in it: along each axis a run of layers.
 std::uint64_t SetInterval::children_within(const Region& bounds, const CellIndex& origin,
                                            std::int64_t child_edge, bool wholly) const {
+  const int log_edge = __builtin_ctzll(static_cast<std::uint64_t>(child_edge));
+  const std::int64_t round_up = child_edge - 1;
   std::uint64_t children = kAll;
   for (std::size_t axis = 0; axis < dim(); ++axis) {
-    std::uint64_t layers = 0;  // of this axis alone
-    for (std::int64_t i = 0; i < side(); ++i) {
-      const std::int64_t lo = origin[axis] + i * child_edge, hi = lo + child_edge;
-      const bool in = wholly ? bounds.lo[axis] <= lo && hi <= bounds.hi[axis]
-                             : lo < bounds.hi[axis] && hi > bounds.lo[axis];
-      layers |= static_cast<std::uint64_t>(in) << i;
-    }
-    if (layers == mask_of_layers(side())) continue;
-    std::uint64_t kept = 0;
-    for (int bit = 0; bit < 64; ++bit) {
-      const int digit = (bit >> (axis_bits() * static_cast<int>(axis))) & static_cast<int>(side() - 1);
-      kept |= ((layers >> digit) & 1U) << bit;
-    }
-    children &= kept;
+    const std::int64_t lo = bounds.lo[axis] - origin[axis], hi = bounds.hi[axis] - origin[axis];
+    const std::int64_t first = std::max<std::int64_t>((wholly ? lo + round_up : lo) >> log_edge, 0);
+    const std::int64_t last = std::min<std::int64_t>((wholly ? hi : hi + round_up) >> log_edge, side());
+    if (first >= last) return 0;
+    // The run within one group of layers of this axis, then in every group.
+    const int stride = 1 << (axis_bits() * static_cast<int>(axis)), group = stride << axis_bits();
+    std::uint64_t run = last * stride == 64 ? kAll : (std::uint64_t{1} << (last * stride)) - 1;
+    run &= ~((std::uint64_t{1} << (first * stride)) - 1);
+    for (int width = group; width < 64; width *= 2) run |= run << width;
+    children &= run;
   }
   return children;
 }

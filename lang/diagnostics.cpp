@@ -10,8 +10,8 @@ namespace hcsp::lang {
 namespace {
 
 // A line may be megabytes long: only this many code points around the place are shown.
-constexpr std::size_t kShownBefore = 60;
-constexpr std::size_t kShownAfter = 60;
+constexpr std::size_t kShownBefore = 80;
+constexpr std::size_t kShownAfter = 100;
 
 // What a terminal can show: tabs stay, control and broken bytes become the replacement character.
 std::string printable(std::string_view text, std::size_t at, std::size_t length) {

@@ -35,6 +35,15 @@ std::string code_id(Code code) { return fmt::format("E{:03}", static_cast<unsign
 
 namespace {
 
+// The message with dots for what depends on the model.
+std::string with_gaps(std::string_view format) {
+  std::string message(format);
+  for (std::size_t at = message.find("{}"); at != std::string::npos; at = message.find("{}")) {
+    message.replace(at, 2, "...");
+  }
+  return message;
+}
+
 // Examples may hold bytes that no terminal can show: that is what they are about.
 std::string indented(std::string_view text) {
   std::string result = "    ";
@@ -56,8 +65,8 @@ std::string explanation_page(std::string_view id) {
   if (error != std::errc() || end != id.data() + id.size()) return {};
   for (const CatalogueEntry& e : catalogue()) {
     if (static_cast<unsigned>(e.code) != number) continue;
-    return fmt::format("{}: {}\n\n{}\n\nWrong:\n\n{}\nRight:\n\n{}", code_id(e.code), e.format, e.explanation,
-                       indented(e.wrong), indented(e.right));
+    return fmt::format("{}: {}\n\n{}\n\nWrong:\n\n{}\nRight:\n\n{}", code_id(e.code), with_gaps(e.format),
+                       e.explanation, indented(e.wrong), indented(e.right));
   }
   return {};
 }

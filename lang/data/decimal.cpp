@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lang/data/decimal.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 
 namespace hcsp::lang {
@@ -78,13 +82,17 @@ std::optional<Decimal> Decimal::parse(std::string_view text) {
 }
 
 std::string Decimal::text() const {
-  std::string digits;
+  std::array<char, 48> buffer{};  // 39 digits at most, from the end
+  std::size_t at = buffer.size();
   Wide rest = mantissa_ < 0 ? -mantissa_ : mantissa_;
-  do {
-    digits.insert(digits.begin(), static_cast<char>('0' + static_cast<int>(rest % 10)));
-    rest /= 10;
-  } while (rest != 0);
-  return (mantissa_ < 0 ? "-" : "") + digits + "e" + std::to_string(exponent_);
+  for (; rest > std::numeric_limits<std::uint64_t>::max(); rest /= 10) {
+    buffer[--at] = static_cast<char>('0' + static_cast<int>(rest % 10));
+  }
+  auto narrow = static_cast<std::uint64_t>(rest);
+  do buffer[--at] = static_cast<char>('0' + narrow % 10);
+  while ((narrow /= 10) != 0);
+  if (mantissa_ < 0) buffer[--at] = '-';
+  return fmt::format("{}e{}", std::string_view(&buffer[at], buffer.size() - at), exponent_);
 }
 
 double Decimal::nearest() const {

@@ -7,4 +7,4 @@ set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 build=${1:-build/release}
 cmake --build "$build" --target lang_tests
-HCSP_ACCEPT=1 "$build/tests/lang_tests" --gtest_filter='Corpus.*'
+HCSP_ACCEPT=1 "$build/tests/lang_tests" --gtest_filter="Corpus.*" --gtest_brief=1

@@ -29,7 +29,7 @@ TEST(Docs, ListEveryDiagnostic) {
   for (const CatalogueEntry& e : catalogue()) {
     std::string message(e.format);
     for (std::size_t at = message.find("{}"); at != std::string::npos; at = message.find("{}")) {
-      message.replace(at, 2, "\xE2\x80\xA6");
+      message.replace(at, 2, "...");
     }
     EXPECT_THAT(text, testing::HasSubstr(fmt::format("| {} | {} |", code_id(e.code), message)));
   }
