@@ -2,6 +2,7 @@
 // The checker's state. Its functions are spread over items.cpp, expressions.cpp, calls.cpp and sets.cpp.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <map>
 #include <string>

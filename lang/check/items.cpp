@@ -128,6 +128,10 @@ void Checker::check_parameter(Symbol& symbol, const ParamItem& item) {
   if (!require_constant(*item.value, found)) return;
   Type wanted = found;
   if (item.type != nullptr) {
+    if (item.type->base == TypeExpr::Base::boolean) {
+      not_supported(item.type->range, "a param of type bool");
+      return;
+    }
     wanted = resolve(*item.type);
     if (wanted.is_error() || !require_domain(*item.value, found, wanted)) return;
     if (wanted.tube || wanted.is(Type::Kind::set)) {

@@ -9,7 +9,8 @@ namespace hcsp::lang {
 
 namespace {
 
-constexpr double kMostInstants = 1e7;  // of a time line that a person meant
+constexpr double kMostInstants = 1e7;                 // of a time line that a person meant
+constexpr std::size_t kMostTubeBounds = 100'000'000;  // of one tube: 1.6 GB
 
 // The values that a model states for an unknown, if any.
 const Expr* stated_domain(const Symbol& symbol) {
@@ -166,6 +167,14 @@ void Compiler::make_unknown(const Symbol& symbol) {
 
 void Compiler::make_tube(const Symbol& symbol) {
   const std::string name(symbol.name.text);
+  const std::size_t bounds = problem_->time_line()->items() * symbol.type.components();
+  if (bounds > kMostTubeBounds) {
+    model_.diagnostics().report(
+        Code::out_of_range, symbol.name.range,
+        fmt::format("a tube of {} components and {} instants", symbol.type.components(),
+                    problem_->time_line()->instants().size()));
+    return;
+  }
   const auto plan = plans_.find(&symbol);
   if (plan == plans_.end()) {
     unknowns_.handles.emplace(&symbol, problem_->tube(name, symbol.type.components()));
@@ -207,7 +216,7 @@ std::optional<double> Compiler::precision_of(const Expr& expr) {
 }
 
 std::optional<Box> Compiler::frame_of(const Expr& expr) {
-  const auto box = evaluator_.box(expr);
+  auto box = evaluator_.box(expr);
   if (!box) return {};
   for (Eigen::Index i = 0; i < box->dim(); ++i) {
     if (!(*box)[i].is_bounded()) {

@@ -65,7 +65,10 @@ class Model {
   std::vector<const Expr*> instants;
   std::deque<Table> tables;
 
-  [[nodiscard]] const Type& type(const Expr& expr) const { return types_[expr.id]; }
+  /// An error for an expression that has not been checked.
+  [[nodiscard]] Type type(const Expr& expr) const {
+    return expr.id < types_.size() ? types_[expr.id] : Type{};
+  }
   void set_type(const Expr& expr, const Type& type) { grow(types_, expr) = type; }
   [[nodiscard]] Reference reference(const Expr& expr) const {
     return expr.id < references_.size() ? references_[expr.id] : Reference{};

@@ -29,6 +29,9 @@ State& state(const Context& context) {
   return x3::get<StateTag>(context).get();
 }
 
+// NOLINTBEGIN(readability-identifier-naming): Spirit's names, and rules that are called as in
+// docs/language.md.
+
 // One token of a kind. It has no attribute: actions look back at the token.
 struct TokenParser : x3::parser<TokenParser> {
   using attribute_type = x3::unused_type;
@@ -403,6 +406,8 @@ const auto item_def = (constraint_item[store] | var_item[store] | param_item[sto
 
 BOOST_SPIRIT_DEFINE(item, model_item, include_item, param_item, data_item, time_item, parameter, local,
                     function_item, given_item, var_item, let_item, constraint_item, solve_item, show_item)
+
+// NOLINTEND(readability-identifier-naming)
 
 template <class Rule, class Attribute>
 std::optional<SyntaxError> read(const Rule& rule, const Token*& at, const Token* end, SyntaxTree& tree,

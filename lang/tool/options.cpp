@@ -9,11 +9,11 @@
 #include <cctype>
 #include <cstdio>
 
+#include "lang/tool/run.h"
+
 namespace hcsp::tool {
 
 namespace {
-
-constexpr int kWrongUsage = 2;
 
 // Options of the language's page that later versions bring.
 struct Later {

@@ -6,7 +6,11 @@
 
 namespace hcsp::tool {
 
-enum ExitStatus : int { kFinished = 0, kWrongInput = 1, kWrongUsage = 2, kStopped = 3 };
+// Exit statuses.
+inline constexpr int kFinished = 0;
+inline constexpr int kWrongInput = 1;
+inline constexpr int kWrongUsage = 2;
+inline constexpr int kStopped = 3;
 
 int run(const Options& options);
 

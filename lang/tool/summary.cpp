@@ -50,10 +50,21 @@ std::string line(const Tube& tube) {
   return fmt::format("{}; {}", slices.text("slices"), gates.text("gates"));
 }
 
-std::string line(const Interval& interval) { return to_string(interval); }
-std::string line(const Box& box) { return to_string(box); }
+std::string bound(double value) {
+  return std::isinf(value) ? (value > 0 ? "oo" : "-oo") : fmt::format("{}", value);
+}
+std::string line(const Interval& interval) {
+  return fmt::format("[{}, {}]", bound(interval.lo()), bound(interval.hi()));
+}
+std::string line(const Box& box) {
+  std::string text;
+  for (Eigen::Index i = 0; i < box.dim(); ++i) text += (i == 0 ? "(" : ", ") + line(box[i]);
+  return text + ")";
+}
 std::string line(const SetInterval& set) {
-  return fmt::format("volume in [{}, {}]", for_people(set.lower_volume()), for_people(set.upper_volume()));
+  const double upper = set.upper_volume();
+  return fmt::format("volume in [{}, {}]", for_people(set.lower_volume()),
+                     std::isinf(upper) ? "oo" : for_people(upper));
 }
 
 void explain(const Explanation& why, std::string& text) {

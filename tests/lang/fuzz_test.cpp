@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
+#include <cstdlib>
 #include <random>
 #include <regex>
 
@@ -11,6 +12,12 @@
 
 namespace hcsp::lang {
 namespace {
+
+// HCSP_FUZZ_SEED=100000 lang_tests --gtest_filter=Fuzz.* starts from another seed.
+unsigned first_seed() {
+  const char* asked = std::getenv("HCSP_FUZZ_SEED");
+  return asked == nullptr ? 0 : static_cast<unsigned>(std::strtoul(asked, nullptr, 10));
+}
 
 constexpr double kLongestSeconds = 20.0;  // of one text, on a loaded machine
 
@@ -80,7 +87,7 @@ TEST(Fuzz, MutatedModelsGiveAnAnswerOrDiagnostics) {
   unsigned compiled = 0;
   const auto before = std::filesystem::current_path();
   std::filesystem::current_path(kLangTests);
-  for (unsigned seed = 0; seed < kRounds; ++seed) {
+  for (unsigned seed = first_seed(); seed < first_seed() + kRounds; ++seed) {
     std::mt19937 random(seed);
     const auto& origins = seed % 4 == 0 ? texts : good;
     const std::string text = mutated(origins[below(origins.size(), random)], random, texts);
@@ -111,7 +118,7 @@ TEST(Fuzz, MutatedDataGiveAnAnswerOrDiagnostics) {
       "data log = csv(\"log.csv\");\ntime t in [0, 1] step 0.25;\n"
       "given z : tube real = sampled(log.t, log.range, 9) +- 0.1;\ngiven u : tube real = hold(log.t, "
       "2*log.range);");
-  for (unsigned seed = 0; seed < 3000; ++seed) {
+  for (unsigned seed = first_seed(); seed < first_seed() + 3000; ++seed) {
     std::mt19937 random(seed);
     const std::string text = mutated(texts[seed % texts.size()], random, texts);
     SCOPED_TRACE(fmt::format("seed {}:\n{}", seed, text));
