@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Range-only SLAM with an occupancy map (Jaulin, IEEE T-RO 27(5), 2011), built with the C++ API alone: the
-// same problem as models/slam/slam.hcsp, and the same domains.
+// same problem as models/slam/slam.hcsp, and the same sets, cell by cell.
 //   slam_builder LOG.csv [--eps 0.05] [--general] [--json FILE]     (columns t, speed, heading, range)
 #include <hcsp/hcsp.h>
 #include <hcsp/solver/report/json.h>

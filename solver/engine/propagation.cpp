@@ -20,7 +20,6 @@ void Access::fail(VariableId variable, std::optional<std::array<double, 2>> time
 void Access::settled() { settled_ = true; }
 
 bool Access::should_stop() const { return run_.failure_.has_value() || run_.out_of_limits(); }
-unsigned Access::threads() const { return run_.options_.threads; }
 
 Propagation::Propagation(const ContractorGraph& graph, PropagationOptions options)
     : graph_(graph),

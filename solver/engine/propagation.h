@@ -24,7 +24,7 @@ Clock steady_clock();
 enum class Order : std::uint8_t { declared, reversed, shuffled };
 
 struct PropagationOptions {
-  unsigned threads = 1;
+  unsigned threads = 1;       ///< accepted; propagation runs on the calling thread
   double time_limit = 0.0;    ///< seconds; 0 is none
   double spent_before = 0.0;  ///< seconds that preparing the data took, for Statistics::seconds
   double threshold = 0.0;  ///< a pass that lowers no variable's measure by more than this share ends the run
@@ -71,7 +71,6 @@ class Access {
   void fail(VariableId variable, std::optional<std::array<double, 2>> time = {});
   /// True when a limit was reached: a long contraction may return early, for the run is going to end.
   [[nodiscard]] bool should_stop() const;
-  [[nodiscard]] unsigned threads() const;
 
  private:
   friend class Propagation;
