@@ -97,10 +97,10 @@ struct Sector {
     const Interval sin_hi = sin(Interval::raw(hi, hi)), cos_hi = cos(Interval::raw(hi, hi));
     // tan and cot at the edges; each rounding is monotone, so that a wider angle never contracts more.
     const double y_lo = up::mul_down(x.lo(), up::div_down(sin_lo.lo(), cos_lo.hi()));
-    const double y_hi = to_axis ? kInfinity : up::no_nan(x.hi() * (sin_hi.hi() / cos_hi.lo()));
+    const double y_hi = to_axis ? kInfinity : up::zero_for_nan(x.hi() * (sin_hi.hi() / cos_hi.lo()));
     const double x_lo =
-        to_axis ? 0.0 : up::no_nan(up::mul_down(y.lo(), up::div_down(cos_hi.lo(), sin_hi.hi())));
-    const double x_hi = from_axis ? kInfinity : up::no_nan(y.hi() * (cos_lo.hi() / sin_lo.lo()));
+        to_axis ? 0.0 : up::zero_for_nan(up::mul_down(y.lo(), up::div_down(cos_hi.lo(), sin_hi.hi())));
+    const double x_hi = from_axis ? kInfinity : up::zero_for_nan(y.hi() * (cos_lo.hi() / sin_lo.lo()));
     x = meet(x, Interval::raw(x_lo, x_hi));
     y = meet(y, Interval::raw(y_lo, y_hi));
   }

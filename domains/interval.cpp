@@ -23,32 +23,32 @@ Interval guarded(Kernel kernel, const Operands&... operands) {
 
 }  // namespace
 
-Interval::Interval(double x) : lo_(x), hi_(x) {
+Interval::Interval(double x) : bounds_{-x, x} {
   require(std::isfinite(x), "Interval: a point must be finite, not {}", x);
 }
 
-Interval::Interval(double lo, double hi) : lo_(lo), hi_(hi) {
+Interval::Interval(double lo, double hi) : bounds_{-lo, hi} {
   require(lo <= hi && lo < kInfinity && hi > -kInfinity, "Interval: [{}, {}] is not an interval", lo, hi);
 }
 
 double Interval::width() const {
   if (is_empty()) return 0.0;
   RoundUpward guard;
-  return opaque(opaque(hi_) - opaque(lo_));
+  return opaque(opaque(hi()) - opaque(lo()));
 }
 
 double Interval::mid() const {
   HCSP_ASSERT(!is_empty());
   if (is_entire()) return 0.0;
-  if (lo_ == -kInfinity) return std::min(hi_, 0.0);
-  if (hi_ == kInfinity) return std::max(lo_, 0.0);
+  if (lo() == -kInfinity) return std::min(hi(), 0.0);
+  if (hi() == kInfinity) return std::max(lo(), 0.0);
   RoundNearest guard;
-  const double lo = opaque(lo_), hi = opaque(hi_);
-  const double middle = opaque(0.5 * lo + 0.5 * hi);
-  return std::min(std::max(middle, lo_), hi_);
+  const double low = opaque(lo()), high = opaque(hi());
+  const double middle = opaque(0.5 * low + 0.5 * high);
+  return std::min(std::max(middle, low), high);
 }
 
-double Interval::mag() const { return is_empty() ? 0.0 : std::max(std::abs(lo_), std::abs(hi_)); }
+double Interval::mag() const { return is_empty() ? 0.0 : std::max(std::abs(lo()), std::abs(hi())); }
 
 Interval operator+(const Interval& a, const Interval& b) { return guarded(up::add, a, b); }
 Interval operator-(const Interval& a, const Interval& b) { return guarded(up::sub, a, b); }

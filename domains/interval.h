@@ -15,18 +15,37 @@ namespace hcsp {
 
 inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
+/// Two doubles in one register: the bounds (-lo, hi) of an interval. With the lower bound negated both round
+/// upward, join is a maximum, inclusion a comparison, and negation swaps the two (Lambov 2008).
+using Bounds [[gnu::vector_size(16)]] = double;
+
+/// Whether both comparisons of a vector hold.
+template <class Mask>
+inline bool both(const Mask& mask) {
+  return (mask[0] & mask[1]) != 0;
+}
+inline Bounds swapped(const Bounds& b) { return __builtin_shufflevector(b, b, 1, 0); }
+/// The lesser and the greater of two, lane by lane; where one is NaN, y.
+inline Bounds least(const Bounds& x, const Bounds& y) { return x < y ? x : y; }
+inline Bounds greatest(const Bounds& x, const Bounds& y) { return x > y ? x : y; }
+
 class Interval {
  public:
   using Delta = ChangedDelta;
 
   /// The whole real line.
-  constexpr Interval() : lo_(-kInfinity), hi_(kInfinity) {}
+  constexpr Interval() : bounds_{kInfinity, kInfinity} {}
   /// The point x. Throws std::invalid_argument unless x is finite.
   Interval(double x);  // NOLINT(google-explicit-constructor): a double is a point
   /// [lo, hi]. Throws std::invalid_argument on NaN, lo > hi, lo == +oo or hi == -oo.
   Interval(double lo, double hi);
 
   static constexpr Interval raw(double lo, double hi) { return Interval(Unchecked{}, lo, hi); }
+  static Interval of_bounds(const Bounds& bounds) {
+    Interval a;
+    a.bounds_ = bounds;
+    return a;
+  }
   static constexpr Interval entire() { return {}; }
   static constexpr Interval empty() { return raw(kInfinity, -kInfinity); }
   /// The tightest interval around the decimal (or hexadecimal, or "oo"-signed infinite bound) number written
@@ -34,13 +53,15 @@ class Interval {
   /// number.
   static Interval of_decimal(std::string_view text);
 
-  [[nodiscard]] constexpr double lo() const { return lo_; }
-  [[nodiscard]] constexpr double hi() const { return hi_; }
-  [[nodiscard]] constexpr bool is_empty() const { return !(lo_ <= hi_); }
-  [[nodiscard]] constexpr bool is_point() const { return lo_ == hi_; }
-  [[nodiscard]] constexpr bool is_entire() const { return lo_ == -kInfinity && hi_ == kInfinity; }
-  [[nodiscard]] constexpr bool is_bounded() const { return lo_ > -kInfinity && hi_ < kInfinity; }
-  [[nodiscard]] constexpr bool contains(double x) const { return lo_ <= x && x <= hi_; }
+  [[nodiscard]] double lo() const { return -bounds_[0]; }
+  [[nodiscard]] double hi() const { return bounds_[1]; }
+  /// (-lo, hi).
+  [[nodiscard]] const Bounds& bounds() const { return bounds_; }
+  [[nodiscard]] bool is_empty() const { return !(lo() <= hi()); }
+  [[nodiscard]] bool is_point() const { return lo() == hi(); }
+  [[nodiscard]] bool is_entire() const { return both(bounds_ == kInfinity); }
+  [[nodiscard]] bool is_bounded() const { return both(bounds_ < kInfinity); }
+  [[nodiscard]] bool contains(double x) const { return both(Bounds{-x, x} <= bounds_); }
   /// The width, rounded up; 0 for the empty set.
   [[nodiscard]] double width() const;
   /// A finite double inside, the nearest to the midpoint where the interval is bounded. Not for the empty
@@ -50,28 +71,27 @@ class Interval {
   [[nodiscard]] double mag() const;
 
   /// Equal as sets.
-  friend constexpr bool operator==(const Interval& a, const Interval& b) {
-    return (a.lo_ == b.lo_ && a.hi_ == b.hi_) || (a.is_empty() && b.is_empty());
+  friend bool operator==(const Interval& a, const Interval& b) {
+    return both(a.bounds_ == b.bounds_) || (a.is_empty() && b.is_empty());
   }
 
  private:
   struct Unchecked {};
-  constexpr Interval(Unchecked, double lo, double hi) : lo_(lo), hi_(hi) {}
-  double lo_, hi_;
+  constexpr Interval(Unchecked, double lo, double hi) : bounds_{-lo, hi} {}
+  Bounds bounds_;
 };
 
 // The lattice of intervals, ordered by inclusion. Comparisons only: no rounding is involved.
-constexpr Interval meet(const Interval& a, const Interval& b) {
-  const double lo = a.lo() > b.lo() ? a.lo() : b.lo();
-  const double hi = a.hi() < b.hi() ? a.hi() : b.hi();
-  return lo <= hi ? Interval::raw(lo, hi) : Interval::empty();
+inline Interval meet(const Interval& a, const Interval& b) {
+  const Bounds met = least(a.bounds(), b.bounds());
+  return Interval::of_bounds(-swapped(met) > met ? Interval::empty().bounds() : met);
 }
 /// The empty set is [+oo, -oo], neutral for the minimum of the lower and the maximum of the upper bounds.
-constexpr Interval join(const Interval& a, const Interval& b) {
-  return Interval::raw(a.lo() < b.lo() ? a.lo() : b.lo(), a.hi() > b.hi() ? a.hi() : b.hi());
+inline Interval join(const Interval& a, const Interval& b) {
+  return Interval::of_bounds(greatest(a.bounds(), b.bounds()));
 }
-constexpr bool leq(const Interval& a, const Interval& b) {
-  return a.is_empty() || (b.lo() <= a.lo() && a.hi() <= b.hi());
+inline bool leq(const Interval& a, const Interval& b) {
+  return both(a.bounds() <= b.bounds()) || a.is_empty();
 }
 inline Interval top(const Interval&) { return Interval::entire(); }
 inline Interval bottom(const Interval&) { return Interval::empty(); }
@@ -87,7 +107,7 @@ inline double measure(const Interval& a) { return a.width(); }
 
 // Forward operations (IEEE 1788-2015, 9.1): enclosures of the image, tightest for every operation below.
 // Arguments outside an operation's domain of definition are ignored: sqrt([-1, 4]) = [0, 2].
-inline Interval operator-(const Interval& a) { return Interval::raw(-a.hi(), -a.lo()); }
+inline Interval operator-(const Interval& a) { return Interval::of_bounds(swapped(a.bounds())); }
 Interval operator+(const Interval& a, const Interval& b);
 Interval operator-(const Interval& a, const Interval& b);
 Interval operator*(const Interval& a, const Interval& b);

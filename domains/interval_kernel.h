@@ -37,27 +37,29 @@ inline double sqrt_down(double x) {
   return exact || x == kInfinity ? root : next_down(root);
 }
 
-/// 0 * oo = 0 for bounds: the bound oo is not a value that is taken (IEEE 1788-2015, 9.1; level 2 of the
-/// product).
-inline double no_nan(double product) { return product == product ? product : 0.0; }
+/// What the kernels put in place of NaN: the bound of the empty set where empty met unbounded, and 0 for the
+/// product 0 * oo, since oo is not a value that is taken (IEEE 1788-2015, 9.1; level 2 of the product).
+inline Bounds empty_for_nan(const Bounds& sum) { return greatest(sum, Bounds{-kInfinity, -kInfinity}); }
+inline Bounds zero_for_nan(const Bounds& product) { return product == product ? product : Bounds{}; }
+
+inline double zero_for_nan(double product) { return product == product ? product : 0.0; }
 
 inline Interval add(const Interval& a, const Interval& b) {
-  if (a.is_empty() || b.is_empty()) return Interval::empty();
-  return Interval::raw(add_down(a.lo(), b.lo()), a.hi() + b.hi());
+  return Interval::of_bounds(empty_for_nan(a.bounds() + b.bounds()));
 }
 
 inline Interval sub(const Interval& a, const Interval& b) {
-  if (a.is_empty() || b.is_empty()) return Interval::empty();
-  return Interval::raw(sub_down(a.lo(), b.hi()), a.hi() - b.lo());
+  return Interval::of_bounds(empty_for_nan(a.bounds() + swapped(b.bounds())));
 }
 
+/// The greatest of the four products of bounds, and of their negations: no branch on signs.
 inline Interval mul(const Interval& a, const Interval& b) {
   if (a.is_empty() || b.is_empty()) return Interval::empty();
-  const double hi = std::max(std::max(no_nan(a.lo() * b.lo()), no_nan(a.lo() * b.hi())),
-                             std::max(no_nan(a.hi() * b.lo()), no_nan(a.hi() * b.hi())));
-  const double minus_lo = std::max(std::max(no_nan(-a.lo() * b.lo()), no_nan(-a.lo() * b.hi())),
-                                   std::max(no_nan(-a.hi() * b.lo()), no_nan(-a.hi() * b.hi())));
-  return Interval::raw(-minus_lo, hi);
+  const Bounds by = a.bounds(), by_negated = -swapped(by);
+  const Bounds low = Bounds{} - b.bounds()[0], high = Bounds{} + b.bounds()[1];
+  return Interval::of_bounds(
+      greatest(greatest(zero_for_nan(by * low), zero_for_nan(by * high)),
+               greatest(zero_for_nan(by_negated * low), zero_for_nan(by_negated * high))));
 }
 
 /// a / b for b without zero inside its bounds' signs: b > 0 or b < 0, a bound of b possibly 0 or infinite.
@@ -82,9 +84,10 @@ inline Interval div(const Interval& a, const Interval& b) {
 
 inline Interval sqr(const Interval& a) {
   if (a.is_empty()) return a;
-  const double small = a.lo() > 0 ? a.lo() : (a.hi() < 0 ? a.hi() : 0.0);
-  const double large = std::max(-a.lo(), a.hi());
-  return Interval::raw(mul_down(small, small), large * large);
+  const Bounds x = a.bounds(), mag = greatest(x, swapped(x)),
+               minus_mig = least(least(x, swapped(x)), Bounds{});
+  return Interval::of_bounds(__builtin_shufflevector(minus_mig, mag, 0, 2) *
+                             __builtin_shufflevector(-minus_mig, mag, 0, 2));
 }
 
 inline Interval sqrt(const Interval& a) {

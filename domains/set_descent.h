@@ -3,8 +3,9 @@
 // of them, none of them, or neither are to be settled; undecided blocks are split down to the cell. The boxes
 // are those around the cells that are still open, so what is settled already costs nothing. A Zone has
 //   Decision decide(const Region& cells);
-// and may have, to decide the 64 children of a node at once, each a cube of child_edge cells,
-//   ChildDecisions decide_children(const CellIndex& origin, std::int64_t child_edge);
+// or, to decide the 64 children of a node at once, each a cube of child_edge cells,
+//   ChildDecisions decide_children(const CellIndex& origin, std::int64_t child_edge, std::uint64_t open);
+// where only the open children matter.
 #pragma once
 
 #include "domains/set_interval.h"
@@ -52,7 +53,7 @@ Region SetInterval::decide(const Region& bounds, Zone& zone) {
 template <bool kInclude, class Zone>
 void SetInterval::descend_node(std::uint32_t node, std::int64_t child_edge, const CellIndex& origin,
                                const Region& bounds, Zone& zone, Region& delta) {
-  if constexpr (requires { zone.decide_children(origin, child_edge); }) {
+  if constexpr (requires { zone.decide_children(origin, child_edge, std::uint64_t{}); }) {
     std::uint64_t open = kInclude ? ~nodes_[node].lower : nodes_[node].upper;
     std::uint64_t whole = open;
     if (!bounds.holds(Region::block(origin, child_edge << axis_bits(), dim()), dim())) {
@@ -60,7 +61,7 @@ void SetInterval::descend_node(std::uint32_t node, std::int64_t child_edge, cons
       open &= children_within(bounds, origin, child_edge, false);
     }
     if (open == 0) return;
-    const ChildDecisions decisions = zone.decide_children(origin, child_edge);
+    const ChildDecisions decisions = zone.decide_children(origin, child_edge, open);
     const std::uint64_t all = decisions.all & whole;
     if (all != 0) {
       settle<kInclude>(node, all);

@@ -145,7 +145,7 @@ void Problem::constrain_derivative(std::string name, TubeVariable x, const Vecto
 
 void Problem::constrain_union(std::string name, SetVariable set, const SetBuilder& zone) {
   require(zone.dim == set.dim, "Problem: a zone of R^{} for a set of R^{}", zone.dim, set.dim);
-  impl_->graph.add_contractor(make_union_contractor(name, name, set.id, impl_->dag,
+  impl_->graph.add_contractor(make_union_contractor(name, name, set.id, set.dim, impl_->dag,
                                                     impl_->relation_of(zone.relation, zone.dim),
                                                     impl_->context(), impl_->fast_paths));
 }
@@ -171,8 +171,8 @@ void Problem::constrain_range(std::string name, Expr z, const VectorExpr& a, Exp
   const VariableId dug =
       impl_->add(name + ".dug space", SetInterval(map.dim, domain.precision()), DomainKind::set, true);
   // Theorem 1 digs the open zone, delta < z: with the closed one it would contradict Theorem 2.
-  impl_->graph.add_contractor(make_union_contractor(name + ".dug", name, dug, impl_->dag, (delta < z).node(),
-                                                    impl_->context(), impl_->fast_paths));
+  impl_->graph.add_contractor(make_union_contractor(name + ".dug", name, dug, map.dim, impl_->dag,
+                                                    (delta < z).node(), impl_->context(), impl_->fast_paths));
   impl_->graph.add_contractor(make_disjoint_contractor(name + ".free", name, dug, map.id));
   impl_->graph.add_contractor(make_meets_contractor(name + ".impact", name, map.id, map.dim, impl_->dag,
                                                     (delta == z).node(), impl_->context(),

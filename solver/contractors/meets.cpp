@@ -86,17 +86,19 @@ class RelationFeel {
   }
 
   void at(const Inputs& inputs, std::size_t item, const std::vector<Interval>&) {
-    inputs_ = &inputs;
-    item_ = item;
+    inputs.load(evaluation_, item);
+    evaluation_.forward_before_point();
+    evaluation_.save(prefix_);
   }
 
   // The part of the inputs' box that a point of the block supports; false when there is none.
   bool operator()(const std::array<Interval, 3>& block, Interval* result) {
-    inputs_->load(evaluation_, item_);
+    evaluation_.restore(prefix_);
     for (std::size_t axis = 0; axis < point_.size(); ++axis) {
       if (point_[axis] != Inputs::kNone) evaluation_.set(point_[axis], block[axis]);
     }
-    if (!evaluation_.revise(kTrue)) return false;
+    evaluation_.forward_from_point();
+    if (!evaluation_.backward(kTrue)) return false;
     for (std::size_t i = 0; i < contractible_.size(); ++i) result[i] = evaluation_.get(contractible_[i]);
     return true;
   }
@@ -105,8 +107,7 @@ class RelationFeel {
   std::unique_ptr<const Program> program_;  // at a fixed address, for the evaluation
   Evaluation evaluation_;
   std::vector<std::uint32_t> contractible_, point_;
-  const Inputs* inputs_ = nullptr;
-  std::size_t item_ = 0;
+  Evaluation::Prefix prefix_;  // at the item, up to the point
 };
 
 // norm(a - e) == r with e and r inputs: the operations of the general path, in its order, without the

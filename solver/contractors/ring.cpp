@@ -101,36 +101,10 @@ Region DiscZone::inner_bounds() const {
   return region;
 }
 
-// Whether none of the cells lies in the discs of all centers: even the point of their box that is nearest to
-// its farthest center is too far. Along an axis, with centers [l, h], the farthest is max(a - l, h - a) away
-// from a.
-bool DiscZone::too_far(const Region& cells) const {
-  double minus_sum = 0.0;  // negated: upward rounding makes it a lower bound
-  for (std::size_t k = 0; k < ring_.dim; ++k) {
-    const Interval side = closure(grid_, cells, ring_.axis[k]);
-    const double low = center_[k].lo(), high = center_[k].hi();
-    const double spread = -0.5 * (low - high);
-    const double farthest =
-        std::max({up::sub_down(side.lo(), low), up::sub_down(high, side.hi()), up::next_down(spread)});
-    if (farthest > 0) minus_sum += -farthest * farthest;
-  }
-  return -minus_sum > all_up_to_;
-}
-
-Decision DiscZone::decide(const Region& cells) const {
-  if (brush_ == Brush::inner && too_far(cells)) return Decision::none;
-  Interval sum(0.0);
-  for (std::size_t k = 0; k < ring_.dim; ++k) {
-    sum = up::add(sum, up::sqr(up::sub(closure(grid_, cells, ring_.axis[k]), center_[k])));
-  }
-  if (sum.hi() <= all_up_to_) return Decision::all;
-  if (sum.lo() >= none_from_) return Decision::none;
-  return brush_ == Brush::outer && is_one_cell(cells, ring_.dim) ? Decision::all : Decision::split;
-}
-
 // Along one term's axis, for each layer of children: the greatest squared distance of its points from the
-// centers, and the least one that matters (too_far's for the inner brush, the nearest for the outer), which
-// is negated so that upward sums round it down.
+// centers, and the least one that matters, negated so that upward sums round it down. With the outer brush
+// that is the distance of the nearest point from the nearest center; with the inner one of the point that is
+// nearest to its farthest center, for with centers [l, h] the farthest is max(a - l, h - a) away from a.
 struct DiscZone::Bounds {
   std::array<double, 8> greatest{};
   std::array<double, 8> minus_least{};
@@ -159,7 +133,8 @@ void DiscZone::bound_children(std::size_t k, const CellIndex& origin, std::int64
   }
 }
 
-ChildDecisions DiscZone::decide_children(const CellIndex& origin, std::int64_t child_edge) const {
+ChildDecisions DiscZone::decide_children(const CellIndex& origin, std::int64_t child_edge,
+                                         std::uint64_t /*open*/) const {
   std::array<Bounds, 3> bounds;
   const bool cells = child_edge == 1;
   const bool inner = brush_ == Brush::inner;

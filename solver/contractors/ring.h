@@ -35,8 +35,8 @@ class DiscZone {
   /// The cells that can be painted with the inner brush: those that a box around the discs' intersection
   /// touches.
   [[nodiscard]] Region inner_bounds() const;
-  [[nodiscard]] Decision decide(const Region& cells) const;
-  [[nodiscard]] ChildDecisions decide_children(const CellIndex& origin, std::int64_t child_edge) const;
+  [[nodiscard]] ChildDecisions decide_children(const CellIndex& origin, std::int64_t child_edge,
+                                               std::uint64_t open) const;
 
  private:
   struct Bounds;
@@ -46,7 +46,6 @@ class DiscZone {
                                             bool least_matters) const;
   [[nodiscard]] ChildDecisions decide_space(const std::array<Bounds, 3>& bounds, double some_up_to,
                                             bool least_matters) const;
-  [[nodiscard]] bool too_far(const Region& cells) const;
 
   const Grid& grid_;
   const Ring& ring_;

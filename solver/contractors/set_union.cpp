@@ -26,8 +26,8 @@ Planes keep_painted(Planes target, Planes painted) { return {target.lower, targe
 
 class UnionContractor final : public Contractor {
  public:
-  UnionContractor(std::string name, std::string constraint, VariableId set, Program program, Inputs inputs,
-                  std::optional<Ring> ring)
+  UnionContractor(std::string name, std::string constraint, VariableId set, std::size_t set_dim,
+                  Program program, Inputs inputs, std::optional<Ring> ring)
       : Contractor(std::move(name), std::move(constraint), Cost::search, with(inputs.variables(), set),
                    with(inputs.variables(), set)),
         set_(set),
@@ -35,14 +35,15 @@ class UnionContractor final : public Contractor {
         inputs_(std::move(inputs)),
         ring_(ring),
         point_(inputs_.point()),
-        zone_(program_, point_),
-        hull_(program_) {}
+        zone_(program_, point_, set_dim),
+        hull_(program_) {
+    point_.resize(set_dim, Inputs::kNone);
+  }
 
   void contract(Access& access) override {
     RoundUpward guard;
     inputs_.open(access);
     SetInterval& set = access.edit<SetInterval>(set_);
-    point_.resize(set.dim(), Inputs::kNone);
     const ItemSet changed = inputs_.changed(access);
     Region delta = paint_inner(access, set, changed);
     if (!set.is_empty() && !changed.is_none()) delta.join(keep_outer(access, set));
@@ -75,16 +76,32 @@ class UnionContractor final : public Contractor {
 
   Region paint_inner(Access& access, SetInterval& set, const ItemSet& items) {
     Region delta;
-    items.for_each([&](std::size_t item) {
-      if (set.is_empty() || inputs_.no_reading_at(item) || access.should_stop()) return;
+    for (const std::size_t item : coarse_to_fine(items)) {
+      if (set.is_empty() || access.should_stop()) break;
       zone_.at(set.grid(), inputs_, item, Brush::inner);
       if (auto zone = disc(set.grid(), Brush::inner)) {
         delta.join(set.include(clipped(zone->inner_bounds()), *zone));
       } else if (const auto bounds = inner_bounds(set.grid(), item)) {
         delta.join(set.include(clipped(*bounds), zone_));
       }
-    });
+    }
     return delta;
+  }
+
+  // The items that have readings, every 128th first, then those half-way between, and so on: zones of
+  // neighbours overlap, so that most of a later one is painted already and costs nothing.
+  const std::vector<std::size_t>& coarse_to_fine(const ItemSet& items) {
+    in_time_.clear();
+    order_.clear();
+    items.for_each([&](std::size_t item) {
+      if (!inputs_.no_reading_at(item)) in_time_.push_back(item);
+    });
+    constexpr std::size_t kCoarsest = 128;
+    for (std::size_t i = 0; i < in_time_.size(); i += kCoarsest) order_.push_back(in_time_[i]);
+    for (std::size_t step = kCoarsest; step > 1; step /= 2) {
+      for (std::size_t i = step / 2; i < in_time_.size(); i += step) order_.push_back(in_time_[i]);
+    }
+    return order_;
   }
 
   // The certain zone lies within the zone of any one choice of inputs, which is easier to bound.
@@ -223,22 +240,23 @@ class UnionContractor final : public Contractor {
   Program program_;
   Inputs inputs_;
   std::optional<Ring> ring_;
-  std::vector<std::uint32_t> point_;  // by axis of the set
-  RelationZone zone_;                 // at the item that is being painted
-  Evaluation hull_;                   // for all else
+  std::vector<std::uint32_t> point_;          // by axis of the set
+  RelationZone zone_;                         // at the item that is being painted
+  Evaluation hull_;                           // for all else
+  std::vector<std::size_t> in_time_, order_;  // items, while painting
 };
 
 }  // namespace
 
 std::unique_ptr<Contractor> make_union_contractor(std::string name, std::string constraint, VariableId set,
-                                                  const Dag& dag, NodeId relation,
+                                                  std::size_t set_dim, const Dag& dag, NodeId relation,
                                                   const Inputs::Context& context, bool fast_paths) {
   Program program(dag, {relation});
   Inputs inputs(program, context);
   std::optional<Ring> ring = fast_paths ? match_ring(dag, relation) : std::nullopt;
   if (ring && ring->relation == Op::equal) ring.reset();
-  return std::make_unique<UnionContractor>(std::move(name), std::move(constraint), set, std::move(program),
-                                           std::move(inputs), ring);
+  return std::make_unique<UnionContractor>(std::move(name), std::move(constraint), set, set_dim,
+                                           std::move(program), std::move(inputs), ring);
 }
 
 }  // namespace hcsp

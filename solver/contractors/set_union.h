@@ -15,7 +15,7 @@ namespace hcsp {
 ///   contracted, item by item, so that its zone leaves out the cells outside S+.
 /// At an item where a sampled tube has no reading the zone says nothing.
 std::unique_ptr<Contractor> make_union_contractor(std::string name, std::string constraint, VariableId set,
-                                                  const Dag& dag, NodeId relation,
+                                                  std::size_t set_dim, const Dag& dag, NodeId relation,
                                                   const Inputs::Context& context, bool fast_paths);
 
 }  // namespace hcsp

@@ -10,6 +10,7 @@
 
 #include <array>
 #include <string_view>
+#include <type_traits>
 
 #include "domains/interval_kernel.h"
 #include "solver/expression/dag.h"
@@ -224,6 +225,10 @@ struct IfThenElse : Total {
     if (is_false(condition)) b = meet(b, y);
   }
 };
+
+/// Defined, and learning of its operands from its value alone, everywhere.
+template <class Operator>
+inline constexpr bool is_total = std::is_base_of_v<Total, Operator> && !std::is_same_v<Operator, IfThenElse>;
 
 }  // namespace operators
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <map>
+#include <type_traits>
 
 #include "domains/check.h"
 #include "solver/expression/operators.h"
@@ -29,81 +30,156 @@ Program::Program(const Dag& dag, const std::vector<NodeId>& roots) {
     constants_.push_back(dag[id].value);
     assign(id);
   }
-  std::vector<bool> on_point(dag.size(), false);
+  std::vector<unsigned> axes(dag.size(), 0);  // of the bound point, by node
   for (NodeId id = 0; id < dag.size(); ++id) {
     const DagNode& node = dag[id];
-    on_point[id] = node.op == Op::input && node.input.kind == Input::Kind::point;
-    for (int k = 0; k < operator_entry(node.op).arity; ++k) {
-      on_point[id] = on_point[id] || on_point[node.operands[static_cast<std::size_t>(k)]];
-    }
+    if (node.op == Op::input && node.input.kind == Input::Kind::point) axes[id] = 1U << node.input.component;
+    for (int k = 0; k < operator_entry(node.op).arity; ++k)
+      axes[id] |= axes[node.operands[static_cast<std::size_t>(k)]];
   }
   for (const bool with_point : {false, true}) {
     for (NodeId id = 0; id < dag.size(); ++id) {
       const DagNode& node = dag[id];
       const int arity = operator_entry(node.op).arity;
-      if (!needed[id] || arity == 0 || on_point[id] != with_point) continue;
+      if (!needed[id] || arity == 0 || (axes[id] != 0) != with_point) continue;
       assign(id);
       const auto operand = [&](int k) {
         return places_.at(node.operands[static_cast<std::size_t>(k < arity ? k : 0)]);
       };
-      code_.push_back({node.op, places_.at(id), operand(0), operand(1), operand(2)});
+      code_.push_back({node.op, places_.at(id), operand(0), operand(1), operand(2), arity});
     }
     if (!with_point) point_code_ = code_.size();
   }
   for (const NodeId root : roots) roots_.push_back(places_.at(root));
-  std::vector<bool> used(registers_, false);
-  for (const Instruction& at : code_) {
-    const std::array<std::uint32_t, 3> operands{at.a, at.b, at.c};
-    for (int k = 0; k < operator_entry(at.op).arity; ++k) {
-      const std::uint32_t operand = operands[static_cast<std::size_t>(k)];
-      if (used[operand] && !is_constant(operand)) single_use_ = false;
-      used[operand] = true;
-    }
+  axes_.resize(registers_);
+  for (const auto& [id, reg] : places_) axes_[reg] = axes[id];
+}
+
+namespace {
+
+constexpr std::uint64_t kEveryLane = ~std::uint64_t{0};
+
+constexpr std::uint64_t first_lanes(std::size_t lanes) {
+  return lanes == 64 ? kEveryLane : (std::uint64_t{1} << lanes) - 1;
+}
+
+}  // namespace
+
+Evaluation::Evaluation(const Program& program, const std::vector<Place>& layout)
+    : program_(&program),
+      places_(layout),
+      defined_(program.registers(), kEveryLane),
+      needed_(program.registers()),
+      narrowed_(program.registers()) {
+  std::uint32_t size = 0;
+  for (Place& at : places_) {
+    at.offset = size;
+    size += at.mask + 1U;
   }
+  registers_.resize(size);
+  for (std::size_t k = 0; k < program.constants().size(); ++k)
+    set(static_cast<std::uint32_t>(program.inputs().size() + k), program.constants()[k]);
 }
 
 Evaluation::Evaluation(const Program& program, std::size_t lanes)
-    : program_(&program),
-      lanes_(lanes),
-      lo_(program.registers() * lanes, -kInfinity),
-      hi_(program.registers() * lanes, kInfinity),
-      defined_(program.registers() * lanes, 1),
-      needed_(program.registers() * lanes, 0) {
-  HCSP_ASSERT(lanes > 0);
-  for (std::size_t k = 0; k < program.constants().size(); ++k) {
-    for (std::size_t lane = 0; lane < lanes; ++lane) {
-      set(static_cast<std::uint32_t>(program.inputs().size() + k), program.constants()[k], lane);
-    }
+    : Evaluation(program, [&] {
+        HCSP_ASSERT(lanes > 0 && lanes <= kMaxLanes);
+        std::uint8_t mask = 0;
+        while (mask + 1U < lanes) mask = static_cast<std::uint8_t>(2 * mask + 1);
+        std::vector<Place> layout(program.registers());
+        for (std::uint32_t reg = 0; reg < layout.size(); ++reg)
+          layout[reg].mask = program.is_constant(reg) ? 0 : mask;
+        return layout;
+      }()) {}
+
+Evaluation Evaluation::over_children(const Program& program, std::size_t dim) {
+  const unsigned axis_bits = 6 / static_cast<unsigned>(dim);
+  std::vector<Place> layout(program.registers());
+  for (std::uint32_t reg = 0; reg < layout.size(); ++reg) {
+    const unsigned axes = program.axes(reg);
+    if (axes == 0) continue;
+    const bool single = (axes & (axes - 1)) == 0;
+    layout[reg].shift =
+        static_cast<std::uint8_t>(single ? axis_bits * static_cast<unsigned>(__builtin_ctz(axes)) : 0U);
+    layout[reg].mask = static_cast<std::uint8_t>(single ? (1U << axis_bits) - 1U : 63U);
+  }
+  return {program, layout};
+}
+
+void Evaluation::save(Prefix& prefix, std::size_t lane) const {
+  prefix.registers.clear();
+  prefix.defined.clear();
+  for (std::uint32_t reg = 0; reg < places_.size(); ++reg) {
+    if (program_->axes(reg) != 0) continue;
+    prefix.registers.push_back(get(reg, lane));
+    prefix.defined.push_back(defined(reg, lane) ? kEveryLane : 0);
   }
 }
 
+void Evaluation::restore(const Prefix& prefix) {
+  std::size_t saved = 0;
+  for (std::uint32_t reg = 0; reg < places_.size(); ++reg) {
+    if (program_->axes(reg) != 0) continue;
+    registers_[places_[reg].offset] = prefix.registers[saved];
+    defined_[reg] = prefix.defined[saved++];
+  }
+}
+
+// Writes each value of the result once: its lanes are those that are a multiple of the layer's size.
 template <class Operator, bool kBoolean, bool kRelation>
 void Evaluation::forward_one(const Program::Instruction& at, std::size_t lanes) {
-  for (std::size_t lane = 0; lane < lanes; ++lane) {
-    const Interval a = get(at.a, lane), b = get(at.b, lane), c = get(at.c, lane);
+  const Place &of_y = places_[at.result], &of_a = places_[at.a], &of_b = places_[at.b], &of_c = places_[at.c];
+  const std::uint64_t operands_defined = defined_[at.a] & defined_[at.b] & defined_[at.c];
+  std::uint64_t defined = operands_defined;
+  const std::size_t values = std::min<std::size_t>(lanes, of_y.mask + 1U);
+  for (std::size_t i = 0; i < values; ++i) {
+    const std::size_t lane = i << of_y.shift;
+    const auto value = [&](const Place& of) -> const Interval& {
+      return registers_[of.offset + ((lane >> of.shift) & of.mask)];
+    };
+    const Interval &a = value(of_a), &b = value(of_b), &c = value(of_c);
     Interval y = Operator::forward(a, b, c);
-    bool defined = defined_[at.a * lanes_ + lane] != 0 && defined_[at.b * lanes_ + lane] != 0 &&
-                   defined_[at.c * lanes_ + lane] != 0 && Operator::defined(a, b, c);
     if constexpr (kRelation) {
       // False where a term is undefined: not certain unless both are defined on the whole box.
       if (a.is_empty() || b.is_empty()) {
         y = kFalse;
-      } else if (!defined) {
+      } else if (((operands_defined >> lane) & 1U) == 0) {
         y = join(y, kFalse);
       }
     }
-    if constexpr (std::is_same_v<Operator, operators::IfThenElse>) {
-      const bool then_defined = defined_[at.b * lanes_ + lane] != 0,
-                 else_defined = defined_[at.c * lanes_ + lane] != 0;
-      defined = (then_defined || operators::is_false(a)) && (else_defined || operators::is_true(a));
-    }
-    set(at.result, y, lane);
-    defined_[at.result * lanes_ + lane] = kBoolean || defined ? 1 : 0;
+    registers_[of_y.offset + i] = y;
   }
+  if constexpr (kBoolean) {
+    defined = kEveryLane;
+  } else if constexpr (std::is_same_v<Operator, operators::IfThenElse>) {
+    defined =
+        where(at, lanes, [&](const Interval& condition, const Interval&, const Interval&, std::size_t lane) {
+          return (operators::is_false(condition) || this->defined(at.b, lane)) &&
+                 (operators::is_true(condition) || this->defined(at.c, lane));
+        });
+  } else if constexpr (!operators::is_total<Operator>) {
+    defined &= where(at, lanes, [](const Interval& a, const Interval& b, const Interval& c, std::size_t) {
+      return Operator::defined(a, b, c);
+    });
+  }
+  defined_[at.result] = defined;
+}
+
+// The lanes where a condition on an instruction's operands holds.
+template <class Condition>
+std::uint64_t Evaluation::where(const Program::Instruction& at, std::size_t lanes,
+                                Condition condition) const {
+  const bool uniform = places_[at.result].mask == 0;
+  std::uint64_t found = 0;
+  for (std::size_t lane = 0; lane < (uniform ? 1 : lanes); ++lane) {
+    const bool holds = condition(get(at.a, lane), get(at.b, lane), get(at.c, lane), lane);
+    found |= static_cast<std::uint64_t>(holds) << lane;
+  }
+  return uniform && found != 0 ? kEveryLane : found;
 }
 
 void Evaluation::run_forward(std::size_t first, std::size_t last, std::size_t lanes) {
-  HCSP_ASSERT(lanes <= lanes_);
+  HCSP_ASSERT(lanes <= kMaxLanes);
   for (const Program::Instruction& at : program_->code().subspan(first, last - first)) {
     switch (at.op) {
 #define HCSP_FORWARD(name, type, text, arity)                                             \
@@ -121,15 +197,24 @@ void Evaluation::run_forward(std::size_t first, std::size_t last, std::size_t la
 // A register's operands are contracted only where the root needs its value: below an undecided branch nothing
 // is known.
 template <class Operator, bool kBoolean, bool kRelation>
-bool Evaluation::backward_one(const Program::Instruction& at, std::size_t lanes) {
-  for (std::size_t lane = 0; lane < lanes; ++lane) {
-    const std::size_t y_place = at.result * lanes_ + lane;
-    if (needed_[y_place] == 0) continue;
+bool Evaluation::backward_one(const Program::Instruction& at) {
+  std::uint64_t open = needed_[at.result];
+  if constexpr (operators::is_total<Operator> && !kBoolean) {
+    // Where a total operation's result is as forward gave it, any value of one operand goes with some of the
+    // others: nothing can be learnt of them.
+    const std::uint64_t idle = open & ~narrowed_[at.result];
+    needed_[at.a] |= idle;
+    needed_[at.b] |= idle;
+    needed_[at.c] |= idle;
+    open &= narrowed_[at.result];
+  }
+  for (; open != 0; open &= open - 1) {
+    const auto lane = static_cast<std::size_t>(__builtin_ctzll(open));
     const Interval y = get(at.result, lane);
     Interval a = get(at.a, lane), b = get(at.b, lane), c = get(at.c, lane);
     bool need_a = true, need_b = true, need_c = true;
     if constexpr (kRelation) {
-      const bool defined = defined_[at.a * lanes_ + lane] != 0 && defined_[at.b * lanes_ + lane] != 0;
+      const bool defined = ((defined_[at.a] & defined_[at.b]) >> lane & 1U) != 0;
       if (!operators::is_true(y) && !(operators::is_false(y) && defined)) continue;
     }
     Operator::backward(y, a, b, c);
@@ -144,12 +229,16 @@ bool Evaluation::backward_one(const Program::Instruction& at, std::size_t lanes)
       if (a.is_empty()) return failed_lane_ = lane, false;
     }
     const auto store = [&](std::uint32_t reg, const Interval& value, bool need) {
-      const Interval met = meet(get(reg, lane), value);
-      if (!program_->is_constant(reg)) set(reg, met, lane);
-      if (need) needed_[reg * lanes_ + lane] = 1;
+      const Interval known = get(reg, lane), met = meet(known, value);
+      if (!(met == known) && !program_->is_constant(reg)) {
+        set(reg, met, lane);
+        narrowed_[reg] |= std::uint64_t{1} << lane;
+      }
+      if (need) needed_[reg] |= std::uint64_t{1} << lane;
       return !(met.is_empty() && (need || kBoolean));
     };
-    if (!store(at.a, a, need_a) || !store(at.b, b, need_b) || !store(at.c, c, need_c)) {
+    if (!store(at.a, a, need_a) || (at.arity > 1 && !store(at.b, b, need_b)) ||
+        (at.arity > 2 && !store(at.c, c, need_c))) {
       failed_lane_ = lane;
       return false;
     }
@@ -158,23 +247,26 @@ bool Evaluation::backward_one(const Program::Instruction& at, std::size_t lanes)
 }
 
 bool Evaluation::backward(const Interval& wanted, std::size_t i, std::size_t lanes) {
-  HCSP_ASSERT(lanes <= lanes_);
-  std::fill(needed_.begin(), needed_.end(), std::uint8_t{0});
+  HCSP_ASSERT(lanes <= kMaxLanes);
+  std::fill(needed_.begin(), needed_.end(), std::uint64_t{0});
+  std::fill(narrowed_.begin(), narrowed_.end(), std::uint64_t{0});
   const std::uint32_t root = program_->root(i);
+  needed_[root] = first_lanes(lanes);
   for (std::size_t lane = 0; lane < lanes; ++lane) {
-    const Interval met = meet(get(root, lane), wanted);
+    const Interval known = get(root, lane), met = meet(known, wanted);
     if (met.is_empty()) return failed_lane_ = lane, false;
+    if (met == known) continue;
     set(root, met, lane);
-    needed_[root * lanes_ + lane] = 1;
+    narrowed_[root] |= std::uint64_t{1} << lane;
   }
   const auto code = program_->code();
   for (std::size_t k = code.size(); k-- > 0;) {
     const Program::Instruction& at = code[k];
     bool alive = true;
     switch (at.op) {
-#define HCSP_BACKWARD(name, type, text, arity)                                                     \
-  case Op::name:                                                                                   \
-    alive = backward_one<operators::type, is_boolean(Op::name), is_relation(Op::name)>(at, lanes); \
+#define HCSP_BACKWARD(name, type, text, arity)                                              \
+  case Op::name:                                                                            \
+    alive = backward_one<operators::type, is_boolean(Op::name), is_relation(Op::name)>(at); \
     break;
       HCSP_OPERATORS(HCSP_BACKWARD)
 #undef HCSP_BACKWARD
@@ -182,23 +274,6 @@ bool Evaluation::backward(const Interval& wanted, std::size_t i, std::size_t lan
         HCSP_ASSERT(false);
     }
     if (!alive) return false;
-  }
-  return true;
-}
-
-bool Evaluation::revise(const Interval& wanted) {
-  HCSP_ASSERT(lanes_ == 1);
-  const auto inputs = static_cast<std::ptrdiff_t>(program_->inputs().size());
-  const int rounds = program_->single_use() ? 1 : kRounds;
-  for (int round = 0; round < rounds; ++round) {
-    lo_before_.assign(lo_.begin(), lo_.begin() + inputs);
-    hi_before_.assign(hi_.begin(), hi_.begin() + inputs);
-    forward();
-    if (!backward(wanted)) return false;
-    if (std::equal(lo_before_.begin(), lo_before_.end(), lo_.begin()) &&
-        std::equal(hi_before_.begin(), hi_before_.end(), hi_.begin())) {
-      break;
-    }
   }
   return true;
 }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Expressions as flat bytecode: the part of a graph that some roots need, in evaluation order, each
 // instruction with its own register. HC4-revise (Benhamou, Goualard, Granvilliers, Puget 1999) is one sweep
-// forward and one back. The same bytecode runs on one box (one lane) and on a range of a tube's items (many
-// lanes); nothing is allocated in it.
+// forward and one back. The same bytecode runs on one box (one lane), on a range of a tube's items (a lane an
+// item) and on the 64 children of a block of cells; nothing is allocated in it.
 #pragma once
 
 #include <cstdint>
@@ -20,6 +20,7 @@ class Program {
   struct Instruction {
     Op op;
     std::uint32_t result, a, b, c;  // registers; unused operands repeat a
+    int arity;
   };
 
   Program(const Dag& dag, const std::vector<NodeId>& roots);
@@ -34,9 +35,8 @@ class Program {
   /// The register of a node that the roots need.
   [[nodiscard]] std::uint32_t register_of(NodeId node) const { return places_.at(node); }
   [[nodiscard]] std::size_t registers() const { return registers_; }
-  /// Whether every input and intermediate value is used once: HC4-revise then gives the hull of a relation's
-  /// solutions at its first pass.
-  [[nodiscard]] bool single_use() const { return single_use_; }
+  /// The axes of the bound point that a register depends on: bit k for axis k.
+  [[nodiscard]] unsigned axes(std::uint32_t reg) const { return axes_[reg]; }
   /// Values of the constants, which stand after the inputs.
   [[nodiscard]] const std::vector<Interval>& constants() const { return constants_; }
   [[nodiscard]] bool is_constant(std::uint32_t reg) const {
@@ -51,21 +51,27 @@ class Program {
   std::map<NodeId, std::uint32_t> places_;
   std::size_t registers_ = 0;
   std::size_t point_code_ = 0;
-  bool single_use_ = true;
+  std::vector<unsigned> axes_;  // by register
 };
 
 /// The registers of a program for a number of lanes. One thread at a time. PRECONDITION of forward and
 /// backward: the thread rounds upward.
 class Evaluation {
  public:
+  static constexpr std::size_t kMaxLanes = 64;
+
+  /// Lanes of their own boxes: every input has a value a lane.
   explicit Evaluation(const Program& program, std::size_t lanes = 1);
+  /// For forward() on the 64 children of a cubic block in R^dim as lanes (set_interval.h): a register has one
+  /// value where it does not depend on the bound point, one a layer where it depends on one axis, one a child
+  /// otherwise.
+  static Evaluation over_children(const Program& program, std::size_t dim);
 
   void set(std::uint32_t reg, const Interval& value, std::size_t lane = 0) {
-    lo_[reg * lanes_ + lane] = value.lo();
-    hi_[reg * lanes_ + lane] = value.hi();
+    registers_[place(reg, lane)] = value;
   }
-  [[nodiscard]] Interval get(std::uint32_t reg, std::size_t lane = 0) const {
-    return Interval::raw(lo_[reg * lanes_ + lane], hi_[reg * lanes_ + lane]);
+  [[nodiscard]] const Interval& get(std::uint32_t reg, std::size_t lane = 0) const {
+    return registers_[place(reg, lane)];
   }
 
   /// Evaluates the first `lanes` lanes: every register is an enclosure of its node on the inputs' box, and
@@ -77,35 +83,54 @@ class Evaluation {
     run_forward(program_->point_code(), program_->code().size(), lanes);
   }
   [[nodiscard]] bool defined(std::uint32_t reg, std::size_t lane = 0) const {
-    return defined_[reg * lanes_ + lane] != 0;
+    return ((defined_[reg] >> lane) & 1U) != 0;
   }
 
   /// After forward: contracts the inputs to where root `i` can lie in `wanted`, the same for every lane.
   /// False when some lane has no such point; failed_lane() tells which.
   bool backward(const Interval& wanted, std::size_t i = 0, std::size_t lanes = 1);
-  /// forward() and backward() on one lane, again and again while the inputs shrink: at most kRounds times,
-  /// and once where each value is used once.
-  bool revise(const Interval& wanted);
-  static constexpr int kRounds = 4;
   [[nodiscard]] std::size_t failed_lane() const { return failed_lane_; }
+
+  /// The registers of a lane that the bound point does not enter. They can be taken up again after
+  /// backward(), or by an evaluation of one lane or over_children().
+  struct Prefix {
+    std::vector<Interval> registers;
+    std::vector<std::uint64_t> defined;
+  };
+  void save(Prefix& prefix, std::size_t lane = 0) const;
+  void restore(const Prefix& prefix);
 
   [[nodiscard]] const Program& program() const { return *program_; }
 
  private:
+  // Where a register's values stand: that of a lane at offset + (lane >> shift & mask).
+  struct Place {
+    std::uint32_t offset = 0;
+    std::uint8_t shift = 0, mask = 0;
+  };
+  Evaluation(const Program& program, const std::vector<Place>& layout);
+  [[nodiscard]] std::size_t place(std::uint32_t reg, std::size_t lane) const {
+    const Place& at = places_[reg];
+    return at.offset + ((lane >> at.shift) & at.mask);
+  }
   void run_forward(std::size_t first, std::size_t last, std::size_t lanes);
   template <class Operator, bool kBoolean, bool kRelation>
   void forward_one(const Program::Instruction& at, std::size_t lanes);
+  template <class Condition>
+  [[nodiscard]] std::uint64_t where(const Program::Instruction& at, std::size_t lanes,
+                                    Condition condition) const;
   template <class Operator, bool kBoolean, bool kRelation>
-  bool backward_one(const Program::Instruction& at, std::size_t lanes);
+  bool backward_one(const Program::Instruction& at);
 
   const Program* program_;
-  std::size_t lanes_;
   std::size_t failed_lane_ = 0;
-  std::vector<double> lo_, hi_;                // register by register, lane by lane
-  std::vector<double> lo_before_, hi_before_;  // the inputs, before a round of revise()
-  std::vector<std::uint8_t> defined_;          // the decoration `def`
-  std::vector<std::uint8_t>
-      needed_;  // backward: the root cannot take a wanted value unless this register has one
+  std::vector<Place> places_;  // by register
+  std::vector<Interval> registers_;
+  // By register, a bit a lane:
+  std::vector<std::uint64_t> defined_;  // the decoration `def`
+  std::vector<std::uint64_t>
+      needed_;  // backward: the root takes a wanted value only if this register has one
+  std::vector<std::uint64_t> narrowed_;  // backward: no longer what forward gave
 };
 
 }  // namespace hcsp

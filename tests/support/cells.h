@@ -57,7 +57,8 @@ class ZoneProbe {
                std::vector<Interval>& result) {
     load(grid, cell, variables);
     RoundUpward guard;
-    if (!evaluation_.revise(kTrue)) return false;
+    evaluation_.forward();
+    if (!evaluation_.backward(kTrue)) return false;
     result = variables;
     for (std::uint32_t i = 0; i < program_.inputs().size(); ++i) {
       const Input& input = program_.inputs()[i];
