@@ -83,11 +83,11 @@ inline Interval div(const Interval& a, const Interval& b) {
 }
 
 inline Interval sqr(const Interval& a) {
-  if (a.is_empty()) return a;
   const Bounds x = a.bounds(), mag = greatest(x, swapped(x)),
                minus_mig = least(least(x, swapped(x)), Bounds{});
-  return Interval::of_bounds(__builtin_shufflevector(minus_mig, mag, 0, 2) *
-                             __builtin_shufflevector(-minus_mig, mag, 0, 2));
+  const Bounds square =
+      __builtin_shufflevector(minus_mig, mag, 0, 2) * __builtin_shufflevector(-minus_mig, mag, 0, 2);
+  return Interval::of_bounds(x == -kInfinity ? x : square);
 }
 
 inline Interval sqrt(const Interval& a) {
@@ -101,15 +101,12 @@ inline Interval abs(const Interval& a) {
   return Interval::raw(small, std::max(-a.lo(), a.hi()));
 }
 
-inline Interval min(const Interval& a, const Interval& b) {
-  if (a.is_empty() || b.is_empty()) return Interval::empty();
-  return Interval::raw(std::min(a.lo(), b.lo()), std::min(a.hi(), b.hi()));
+inline Interval max(const Interval& a, const Interval& b) {
+  const Bounds x = a.bounds(), y = b.bounds(), lo = least(x, y), hi = greatest(x, y);
+  return Interval::of_bounds(lo[1] == -kInfinity ? lo : __builtin_shufflevector(lo, hi, 0, 3));
 }
 
-inline Interval max(const Interval& a, const Interval& b) {
-  if (a.is_empty() || b.is_empty()) return Interval::empty();
-  return Interval::raw(std::max(a.lo(), b.lo()), std::max(a.hi(), b.hi()));
-}
+inline Interval min(const Interval& a, const Interval& b) { return -up::max(-a, -b); }
 
 // Reverse operations (IEEE 1788-2015, 9.1 and 10.5.4): the part of x for which the operation can give a value
 // in c.

@@ -15,7 +15,7 @@ Inputs::Inputs(const Program& program, Context context)
       point_.resize(std::max<std::size_t>(point_.size(), input.component + 1), kNone);
       point_[input.component] = i;
     }
-    if (!is_contractible(i)) continue;
+    if (input.kind == Input::Kind::point || input.kind == Input::Kind::time) continue;
     contractible_.push_back(i);
     const auto known = std::find(variables_.begin(), variables_.end(), input.variable);
     place_of_[i] = static_cast<std::size_t>(known - variables_.begin());

@@ -30,9 +30,6 @@ class Inputs {
   [[nodiscard]] std::size_t items() const { return timed_ ? context_.line->items() : 1; }
   /// The inputs that can be contracted: all but the time and the bound point.
   [[nodiscard]] const std::vector<std::uint32_t>& contractible() const { return contractible_; }
-  [[nodiscard]] bool is_contractible(std::uint32_t input) const {
-    return inputs_[input].kind != Input::Kind::point && inputs_[input].kind != Input::Kind::time;
-  }
   /// The inputs of the bound point, by axis; kNone for an axis that the program does not use.
   [[nodiscard]] const std::vector<std::uint32_t>& point() const { return point_; }
   static constexpr std::uint32_t kNone = 0xffffffffU;

@@ -41,12 +41,16 @@ struct Total {
   static bool defined(const I&, const I&, const I&) { return true; }
 };
 
-struct Neg : Total {
+/// Each bound of the value is a monotone function of bounds of the operands: the same formulas serve improper
+/// intervals, lo > hi (Kaucher arithmetic).
+struct Boundwise : Total {};
+
+struct Neg : Boundwise {
   static I forward(const I& a, const I&, const I&) { return -a; }
   static void backward(const I& y, I& a, I&, I&) { a = meet(a, -y); }
 };
 
-struct Add : Total {
+struct Add : Boundwise {
   static I forward(const I& a, const I& b, const I&) { return up::add(a, b); }
   static void backward(const I& y, I& a, I& b, I&) {
     a = meet(a, up::sub(y, b));
@@ -54,7 +58,7 @@ struct Add : Total {
   }
 };
 
-struct Sub : Total {
+struct Sub : Boundwise {
   static I forward(const I& a, const I& b, const I&) { return up::sub(a, b); }
   static void backward(const I& y, I& a, I& b, I&) {
     a = meet(a, up::add(y, b));
@@ -95,7 +99,7 @@ struct Abs : Total {
   static void backward(const I& y, I& a, I&, I&) { a = up::abs_rev(y, a); }
 };
 
-struct Min : Total {
+struct Min : Boundwise {
   static I forward(const I& a, const I& b, const I&) { return up::min(a, b); }
   static void backward(const I& y, I& a, I& b, I&) {
     a = up::min_rev(b, y, a);
@@ -103,7 +107,7 @@ struct Min : Total {
   }
 };
 
-struct Max : Total {
+struct Max : Boundwise {
   static I forward(const I& a, const I& b, const I&) { return up::max(a, b); }
   static void backward(const I& y, I& a, I& b, I&) {
     a = up::max_rev(b, y, a);
@@ -134,6 +138,17 @@ struct Atan2 {
 // operands are defined).
 
 inline I from_bounds(bool always, bool never) { return always ? kTrue : (never ? kFalse : kEither); }
+
+/// The truth of a <= b and of a < b, with no branch: with (-a.lo, a.hi) against (-b.hi, b.lo) one comparison
+/// tells "never", the other "always".
+template <bool kStrict>
+inline I compare(const I& a, const I& b) {
+  const Bounds x = a.bounds(), y = -swapped(b.bounds());
+  const auto less = x < y, at_most = x <= y;
+  const auto always = kStrict ? less : at_most, never = kStrict ? at_most : less;
+  const Bounds bounds = __builtin_shufflevector(always, never, 1, 2) ? Bounds{-1.0, 0.0} : Bounds{0.0, 1.0};
+  return I::of_bounds(bounds);
+}
 inline bool is_true(const I& y) { return y.lo() == 1.0; }
 inline bool is_false(const I& y) { return y.hi() == 0.0; }
 
@@ -143,20 +158,16 @@ inline void at_most(I& a, I& b) {
 }
 inline void equate(I& a, I& b) { a = b = meet(a, b); }
 
-struct Less : Total {
-  static I forward(const I& a, const I& b, const I&) {
-    return from_bounds(a.hi() < b.lo(), a.lo() >= b.hi());
-  }
+struct Less : Boundwise {
+  static I forward(const I& a, const I& b, const I&) { return compare<true>(a, b); }
   static void backward(const I& y, I& a, I& b, I&) {
     if (is_true(y)) at_most(a, b);  // the closure of <
     if (is_false(y)) at_most(b, a);
   }
 };
 
-struct LessEqual : Total {
-  static I forward(const I& a, const I& b, const I&) {
-    return from_bounds(a.hi() <= b.lo(), a.lo() > b.hi());
-  }
+struct LessEqual : Boundwise {
+  static I forward(const I& a, const I& b, const I&) { return compare<false>(a, b); }
   static void backward(const I& y, I& a, I& b, I&) {
     if (is_true(y)) at_most(a, b);
     if (is_false(y)) at_most(b, a);
@@ -181,7 +192,7 @@ struct NotEqual : Total {
   }
 };
 
-struct And : Total {
+struct And : Boundwise {
   static I forward(const I& a, const I& b, const I&) { return up::min(a, b); }
   static void backward(const I& y, I& a, I& b, I&) {
     if (is_true(y)) {
@@ -194,7 +205,7 @@ struct And : Total {
   }
 };
 
-struct Or : Total {
+struct Or : Boundwise {
   static I forward(const I& a, const I& b, const I&) { return up::max(a, b); }
   static void backward(const I& y, I& a, I& b, I&) {
     if (is_false(y)) {
@@ -207,7 +218,7 @@ struct Or : Total {
   }
 };
 
-struct Not : Total {
+struct Not : Boundwise {
   static I forward(const I& a, const I&, const I&) { return I::raw(1.0 - a.hi(), 1.0 - a.lo()); }
   static void backward(const I& y, I& a, I&, I&) { a = meet(a, I::raw(1.0 - y.hi(), 1.0 - y.lo())); }
 };
@@ -225,6 +236,15 @@ struct IfThenElse : Total {
     if (is_false(condition)) b = meet(b, y);
   }
 };
+
+/// The value's core on cores of the operands (Evaluation::core_over_children). Where all are proper, forward
+/// gives it, by inclusion isotonicity; the empty set's bounds [+oo, -oo] say nothing.
+template <class Operator>
+I core(const I& a, const I& b, const I& c) {
+  if constexpr (std::is_base_of_v<Boundwise, Operator>) return Operator::forward(a, b, c);
+  if constexpr (std::is_same_v<Operator, IfThenElse>) return I::of_bounds(least(b.bounds(), c.bounds()));
+  return a.is_empty() || b.is_empty() || c.is_empty() ? I::empty() : Operator::forward(a, b, c);
+}
 
 /// Defined, and learning of its operands from its value alone, everywhere.
 template <class Operator>

@@ -65,8 +65,9 @@ constexpr std::uint64_t first_lanes(std::size_t lanes) {
 
 }  // namespace
 
-Evaluation::Evaluation(const Program& program, const std::vector<Place>& layout)
+Evaluation::Evaluation(const Program& program, std::size_t row, const std::vector<Place>& layout)
     : program_(&program),
+      row_(row),
       places_(layout),
       defined_(program.registers(), kEveryLane),
       needed_(program.registers()),
@@ -82,7 +83,7 @@ Evaluation::Evaluation(const Program& program, const std::vector<Place>& layout)
 }
 
 Evaluation::Evaluation(const Program& program, std::size_t lanes)
-    : Evaluation(program, [&] {
+    : Evaluation(program, kMaxLanes, [&] {
         HCSP_ASSERT(lanes > 0 && lanes <= kMaxLanes);
         std::uint8_t mask = 0;
         while (mask + 1U < lanes) mask = static_cast<std::uint8_t>(2 * mask + 1);
@@ -103,7 +104,7 @@ Evaluation Evaluation::over_children(const Program& program, std::size_t dim) {
         static_cast<std::uint8_t>(single ? axis_bits * static_cast<unsigned>(__builtin_ctz(axes)) : 0U);
     layout[reg].mask = static_cast<std::uint8_t>(single ? (1U << axis_bits) - 1U : 63U);
   }
-  return {program, layout};
+  return {program, std::size_t{1} << axis_bits, layout};
 }
 
 void Evaluation::save(Prefix& prefix, std::size_t lane) const {
@@ -125,29 +126,39 @@ void Evaluation::restore(const Prefix& prefix) {
   }
 }
 
-// Writes each value of the result once: its lanes are those that are a multiple of the layer's size.
-template <class Operator, bool kBoolean, bool kRelation>
+// Row by row of values that stand side by side; in a row an operand moves on with its lanes or stays.
+template <class Operator, bool kBoolean, bool kRelation, bool kCore>
 void Evaluation::forward_one(const Program::Instruction& at, std::size_t lanes) {
   const Place &of_y = places_[at.result], &of_a = places_[at.a], &of_b = places_[at.b], &of_c = places_[at.c];
   const std::uint64_t operands_defined = defined_[at.a] & defined_[at.b] & defined_[at.c];
   std::uint64_t defined = operands_defined;
   const std::size_t values = std::min<std::size_t>(lanes, of_y.mask + 1U);
-  for (std::size_t i = 0; i < values; ++i) {
-    const std::size_t lane = i << of_y.shift;
-    const auto value = [&](const Place& of) -> const Interval& {
-      return registers_[of.offset + ((lane >> of.shift) & of.mask)];
-    };
-    const Interval &a = value(of_a), &b = value(of_b), &c = value(of_c);
-    Interval y = Operator::forward(a, b, c);
-    if constexpr (kRelation) {
-      // False where a term is undefined: not certain unless both are defined on the whole box.
-      if (a.is_empty() || b.is_empty()) {
-        y = kFalse;
-      } else if (((operands_defined >> lane) & 1U) == 0) {
-        y = join(y, kFalse);
+  const std::size_t row = std::min(values, row_);
+  for (std::size_t first = 0; first < values; first += row) {
+    if (values == kMaxLanes && (wanted_ >> first & first_lanes(row)) == 0) continue;
+    Interval* y = &registers_[of_y.offset + first];
+    const auto start = [&](const Place& of) { return &registers_[place(of, first << of_y.shift)]; };
+    const auto step = [&](const Place& of) { return of.shift == of_y.shift ? of.mask & 1U : 0U; };
+    const Interval *a = start(of_a), *b = start(of_b), *c = start(of_c);
+    const std::size_t step_a = step(of_a), step_b = step(of_b), step_c = step(of_c);
+    for (std::size_t i = 0; i < row; ++i, ++y, a += step_a, b += step_b, c += step_c) {
+      Interval value;
+      if constexpr (kCore) {
+        value = operators::core<Operator>(*a, *b, *c);
+      } else {
+        value = Operator::forward(*a, *b, *c);
       }
+      if constexpr (kRelation && !kCore) {
+        // False where a term is undefined: not certain unless both are defined on the whole box.
+        const std::size_t lane = (first + i) << of_y.shift;
+        if (a->is_empty() || b->is_empty()) {
+          value = kFalse;
+        } else if (((operands_defined >> lane) & 1U) == 0) {
+          value = join(value, kFalse);
+        }
+      }
+      *y = value;
     }
-    registers_[of_y.offset + i] = y;
   }
   if constexpr (kBoolean) {
     defined = kEveryLane;
@@ -178,13 +189,14 @@ std::uint64_t Evaluation::where(const Program::Instruction& at, std::size_t lane
   return uniform && found != 0 ? kEveryLane : found;
 }
 
+template <bool kCore>
 void Evaluation::run_forward(std::size_t first, std::size_t last, std::size_t lanes) {
   HCSP_ASSERT(lanes <= kMaxLanes);
   for (const Program::Instruction& at : program_->code().subspan(first, last - first)) {
     switch (at.op) {
-#define HCSP_FORWARD(name, type, text, arity)                                             \
-  case Op::name:                                                                          \
-    forward_one<operators::type, is_boolean(Op::name), is_relation(Op::name)>(at, lanes); \
+#define HCSP_FORWARD(name, type, text, arity)                                                    \
+  case Op::name:                                                                                 \
+    forward_one<operators::type, is_boolean(Op::name), is_relation(Op::name), kCore>(at, lanes); \
     break;
       HCSP_OPERATORS(HCSP_FORWARD)
 #undef HCSP_FORWARD
@@ -193,6 +205,9 @@ void Evaluation::run_forward(std::size_t first, std::size_t last, std::size_t la
     }
   }
 }
+
+template void Evaluation::run_forward<false>(std::size_t, std::size_t, std::size_t);
+template void Evaluation::run_forward<true>(std::size_t, std::size_t, std::size_t);
 
 // A register's operands are contracted only where the root needs its value: below an undecided branch nothing
 // is known.

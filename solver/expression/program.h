@@ -76,11 +76,36 @@ class Evaluation {
 
   /// Evaluates the first `lanes` lanes: every register is an enclosure of its node on the inputs' box, and
   /// defined() tells whether the node is defined on all of it.
-  void forward(std::size_t lanes = 1) { run_forward(0, program_->code().size(), lanes); }
+  void forward(std::size_t lanes = 1) { run_forward<false>(0, program_->code().size(), lanes); }
   /// forward() in two halves: what the bound point does not enter, and the rest.
-  void forward_before_point(std::size_t lanes = 1) { run_forward(0, program_->point_code(), lanes); }
+  void forward_before_point(std::size_t lanes = 1) { run_forward<false>(0, program_->point_code(), lanes); }
   void forward_from_point(std::size_t lanes = 1) {
-    run_forward(program_->point_code(), program_->code().size(), lanes);
+    run_forward<false>(program_->point_code(), program_->code().size(), lanes);
+  }
+  /// forward_from_point() over children, of which only some matter: the others may be left as they were.
+  void forward_over_children(std::uint64_t wanted) {
+    wanted_ = wanted;
+    forward_from_point(kMaxLanes);
+  }
+  /// Over children, with the bound point in each given as the improper interval [hi, lo] of its layers: for
+  /// every register bounds K that what forward gives at any one point of the child holds, K.lo >= lo and K.hi
+  /// <= hi, possibly improper themselves (Kaucher's order; definedness is taken for granted). A relation that
+  /// is certain at some point of the child has the core [1, 1] or [1, 0]. To the last bit: forward operations
+  /// are isotone.
+  void core_over_children(std::uint64_t wanted) {
+    wanted_ = wanted;
+    run_forward<true>(program_->point_code(), program_->code().size(), kMaxLanes);
+  }
+  /// Those of some children where a condition on the root holds.
+  template <class Condition>
+  [[nodiscard]] std::uint64_t children_where(std::uint64_t children, Condition condition) const {
+    std::uint64_t found = 0;
+    for (; children != 0; children &= children - 1) {
+      const int child = __builtin_ctzll(children);
+      const bool holds = condition(get(program_->root(), static_cast<std::size_t>(child)));
+      found |= static_cast<std::uint64_t>(holds) << child;
+    }
+    return found;
   }
   [[nodiscard]] bool defined(std::uint32_t reg, std::size_t lane = 0) const {
     return ((defined_[reg] >> lane) & 1U) != 0;
@@ -108,13 +133,16 @@ class Evaluation {
     std::uint32_t offset = 0;
     std::uint8_t shift = 0, mask = 0;
   };
-  Evaluation(const Program& program, const std::vector<Place>& layout);
-  [[nodiscard]] std::size_t place(std::uint32_t reg, std::size_t lane) const {
-    const Place& at = places_[reg];
+  Evaluation(const Program& program, std::size_t row, const std::vector<Place>& layout);
+  [[nodiscard]] static std::size_t place(const Place& at, std::size_t lane) {
     return at.offset + ((lane >> at.shift) & at.mask);
   }
+  [[nodiscard]] std::size_t place(std::uint32_t reg, std::size_t lane) const {
+    return place(places_[reg], lane);
+  }
+  template <bool kCore>
   void run_forward(std::size_t first, std::size_t last, std::size_t lanes);
-  template <class Operator, bool kBoolean, bool kRelation>
+  template <class Operator, bool kBoolean, bool kRelation, bool kCore>
   void forward_one(const Program::Instruction& at, std::size_t lanes);
   template <class Condition>
   [[nodiscard]] std::uint64_t where(const Program::Instruction& at, std::size_t lanes,
@@ -123,6 +151,8 @@ class Evaluation {
   bool backward_one(const Program::Instruction& at);
 
   const Program* program_;
+  std::size_t row_;  // lanes along which every register moves on by one value or stays
+  std::uint64_t wanted_ = ~std::uint64_t{0};
   std::size_t failed_lane_ = 0;
   std::vector<Place> places_;  // by register
   std::vector<Interval> registers_;
