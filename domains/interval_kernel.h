@@ -29,12 +29,12 @@ inline double next_up(double x) {
 }
 inline double next_down(double x) { return -next_up(-x); }
 
-/// sqrt rounded down, for x >= 0: the upward root, unless its square (exact exactly when both roundings
-/// agree) tells that it was rounded.
+/// sqrt rounded down, for x >= 0: the upward root, or the double below it where that was rounded. It was just
+/// when its square, rounded upward, is above x.
 inline double sqrt_down(double x) {
   const double root = std::sqrt(x);
-  const bool exact = root * root == x && mul_down(root, root) == x;
-  return exact || x == kInfinity ? root : next_down(root);
+  return std::bit_cast<double>(std::bit_cast<std::int64_t>(root) -
+                               static_cast<std::int64_t>(root * root != x));
 }
 
 /// What the kernels put in place of NaN: the bound of the empty set where empty met unbounded, and 0 for the
@@ -43,6 +43,11 @@ inline Bounds empty_for_nan(const Bounds& sum) { return greatest(sum, Bounds{-kI
 inline Bounds zero_for_nan(const Bounds& product) { return product == product ? product : Bounds{}; }
 
 inline double zero_for_nan(double product) { return product == product ? product : 0.0; }
+
+/// For empty sets with the bounds of Interval::empty(), as every operation gives them.
+inline bool is_any_empty(const Interval& a, const Interval& b) {
+  return least(a.bounds(), b.bounds())[1] == -kInfinity;
+}
 
 inline Interval add(const Interval& a, const Interval& b) {
   return Interval::of_bounds(empty_for_nan(a.bounds() + b.bounds()));
@@ -54,7 +59,7 @@ inline Interval sub(const Interval& a, const Interval& b) {
 
 /// The greatest of the four products of bounds, and of their negations: no branch on signs.
 inline Interval mul(const Interval& a, const Interval& b) {
-  if (a.is_empty() || b.is_empty()) return Interval::empty();
+  if (is_any_empty(a, b)) return Interval::empty();
   const Bounds by = a.bounds(), by_negated = -swapped(by);
   const Bounds low = Bounds{} - b.bounds()[0], high = Bounds{} + b.bounds()[1];
   return Interval::of_bounds(

@@ -151,7 +151,7 @@ void Evaluation::forward_one(const Program::Instruction& at, std::size_t lanes) 
       if constexpr (kRelation && !kCore) {
         // False where a term is undefined: not certain unless both are defined on the whole box.
         const std::size_t lane = (first + i) << of_y.shift;
-        if (a->is_empty() || b->is_empty()) {
+        if (up::is_any_empty(*a, *b)) {
           value = kFalse;
         } else if (((operands_defined >> lane) & 1U) == 0) {
           value = join(value, kFalse);
