@@ -5,6 +5,7 @@
 // guard instead.
 #pragma once
 
+#include <cstdint>
 #include <limits>
 #include <string>
 #include <string_view>
@@ -52,6 +53,8 @@ class Interval {
   /// in text. "0.1" gives the two doubles around one tenth. Throws std::invalid_argument when text is not a
   /// number.
   static Interval of_decimal(std::string_view text);
+  /// The tightest interval around mantissa * 10^exponent.
+  static Interval of_decimal(std::int64_t mantissa, int exponent);
 
   [[nodiscard]] double lo() const { return -bounds_[0]; }
   [[nodiscard]] double hi() const { return bounds_[1]; }

@@ -95,9 +95,13 @@ inline Interval sqr(const Interval& a) {
   return Interval::of_bounds(x == -kInfinity ? x : square);
 }
 
+/// The root and the square of a non-empty interval of bounds >= 0.
+inline Bounds root(const Bounds& x) { return Bounds{-sqrt_down(-x[0]), std::sqrt(x[1])}; }
+inline Bounds square_of_positive(const Bounds& x) { return x * Bounds{-x[0], x[1]}; }
+
 inline Interval sqrt(const Interval& a) {
   if (a.is_empty() || a.hi() < 0) return Interval::empty();
-  return Interval::raw(a.lo() <= 0 ? 0.0 : sqrt_down(a.lo()), std::sqrt(a.hi()));
+  return Interval::of_bounds(root(least(a.bounds(), Bounds{0.0, kInfinity})));
 }
 
 inline Interval abs(const Interval& a) {

@@ -3,6 +3,8 @@
 // places, which is what data files hold, are decided in double-double arithmetic; MPFR reads the others.
 #include "domains/interval.h"
 
+#include <fmt/format.h>
+
 #include <array>
 #include <bit>
 #include <cmath>
@@ -18,6 +20,9 @@
 namespace hcsp {
 
 namespace {
+
+/// A mantissa below this has room for one more digit; below ten times this it is short.
+constexpr std::uint64_t kShort = 1'000'000'000'000'000'000;
 
 /// A number as written, without its sign.
 struct Literal {
@@ -69,7 +74,7 @@ class Scanner {
       if (!literal_.is_short) continue;
       literal_.mantissa = literal_.mantissa * 10 + static_cast<std::uint64_t>(peek() - '0');
       literal_.exponent -= fraction ? 1 : 0;
-      literal_.is_short = literal_.mantissa < 1'000'000'000'000'000'000 && literal_.exponent > -1000;
+      literal_.is_short = literal_.mantissa < kShort && literal_.exponent > -1000;
     }
     return count;
   }
@@ -135,6 +140,12 @@ Interval of_long(const Literal& literal) {
   return Interval::raw(lo, hi);
 }
 
+// To leave a guard's lifetime.
+Interval with_sign(const Interval& magnitude, bool negative) {
+  const Interval fenced = Interval::raw(opaque(magnitude.lo()), opaque(magnitude.hi()));
+  return negative ? -fenced : fenced;
+}
+
 }  // namespace
 
 Interval Interval::of_decimal(std::string_view text) {
@@ -147,8 +158,23 @@ Interval Interval::of_decimal(std::string_view text) {
   RoundNearest guard;
   Interval magnitude = of_short(literal);
   if (magnitude.is_empty()) magnitude = of_long(literal);
-  magnitude = Interval::raw(opaque(magnitude.lo()), opaque(magnitude.hi()));
-  return negative ? -magnitude : magnitude;
+  return with_sign(magnitude, negative);
+}
+
+Interval Interval::of_decimal(std::int64_t mantissa, int exponent) {
+  if (mantissa == 0) return point(0.0);
+  const bool negative = mantissa < 0;
+  Literal literal;
+  literal.mantissa =
+      negative ? 0 - static_cast<std::uint64_t>(mantissa) : static_cast<std::uint64_t>(mantissa);
+  literal.exponent = exponent;
+  literal.is_short = literal.mantissa < 10 * kShort;
+  {
+    RoundNearest guard;
+    const Interval magnitude = of_short(literal);
+    if (!magnitude.is_empty()) return with_sign(magnitude, negative);
+  }
+  return of_decimal(fmt::format("{}e{}", mantissa, exponent));
 }
 
 }  // namespace hcsp

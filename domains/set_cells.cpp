@@ -71,7 +71,7 @@ void SetInterval::collect_runs(std::uint32_t node, std::int64_t child_edge, cons
 std::vector<Region> SetInterval::cells(CellState state) const {
   std::vector<Region> boxes;
   if (empty_) return boxes;
-  collect_runs(root_, root_edge() / side(), root_origin(), state, boxes);
+  collect_runs(root_, root_edge() / side(), origin_, state, boxes);
   for (std::size_t axis = 0; axis < dim(); ++axis) merge_along(boxes, axis);
   return boxes;
 }

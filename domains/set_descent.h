@@ -36,7 +36,8 @@ void SetInterval::for_each_upper_part(const Block& block, Visit visit) const {
   const bool uniform = block.node == kNoNode;
   if (uniform && !block.any_upper) return;
   for (int corner = 0; corner < (1 << dim()); ++corner) {
-    if (uniform || (nodes_[block.node].upper & mask_of_part(block, corner)) != 0) visit(part(block, corner));
+    const std::uint64_t mask = uniform ? 0 : mask_of_part(block, corner);
+    if (uniform || (nodes_[block.node].upper & mask) != 0) visit(part(block, corner, mask));
   }
 }
 
@@ -45,7 +46,7 @@ Region SetInterval::decide(const Region& bounds, Zone& zone) {
   Region delta;
   if (empty_ || !bounds.has_cells()) return delta;
   cover(bounds);
-  descend_node<kInclude>(root_, root_edge() >> axis_bits(), root_origin(), bounds, zone, delta);
+  descend_node<kInclude>(root_, root_edge() >> axis_bits(), origin_, bounds, zone, delta);
   return delta;
 }
 

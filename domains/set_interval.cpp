@@ -53,6 +53,10 @@ constexpr MaskTable make_masks() {
 
 constexpr MaskTable kMasks = make_masks();
 
+// By dimension and axis: the first bit of every group of side^(axis + 1) children.
+constexpr std::array<std::array<std::uint64_t, 3>, 4> kEveryGroup{
+    {{}, {1}, {0x0101010101010101, 1}, {0x1111111111111111, 0x0001000100010001, 1}}};
+
 // The cells that the closed frame touches: half-open cells, so a face at line(i) touches cell i.
 Region touched_cells(const Grid& grid, const Box& frame) {
   require(static_cast<std::size_t>(frame.dim()) == grid.dim(), "SetInterval: a frame of dimension {} in R^{}",
@@ -70,20 +74,6 @@ Region touched_cells(const Grid& grid, const Box& frame) {
   }
   return region;
 }
-
-// Excludes all that is outside a region.
-struct OutsideOf {
-  const Region& region;
-  std::size_t dim;
-  Decision decide(const Region& cells) const {
-    bool within = true;
-    for (std::size_t axis = 0; axis < dim; ++axis) {
-      if (cells.lo[axis] >= region.hi[axis] || cells.hi[axis] <= region.lo[axis]) return Decision::all;
-      within = within && cells.lo[axis] >= region.lo[axis] && cells.hi[axis] <= region.hi[axis];
-    }
-    return within ? Decision::none : Decision::split;
-  }
-};
 
 }  // namespace
 
@@ -131,9 +121,20 @@ Region Region::block(const CellIndex& lo, std::int64_t edge, std::size_t dim) {
   return region;
 }
 
+// Decides all that is outside a box of cells.
+struct SetInterval::OutsideOf {
+  const SetInterval& set;
+  const Region& cells;
+  ChildDecisions decide_children(const CellIndex& origin, std::int64_t child_edge, std::uint64_t) const {
+    return {~set.children_within(cells, origin, child_edge, false),
+            ~set.children_within(cells, origin, child_edge, true)};
+  }
+};
+
 SetInterval::SetInterval(std::size_t dim, double precision, const std::optional<Box>& frame)
     : grid_(dim, precision), background_{0, kAll} {
   root_ = new_node(background_);
+  place_root();
   if (!frame) return;
   const Region cells = touched_cells(grid_, *frame);
   Region margin = cells;  // a rim of outside cells, so that contractors see where the frame ends
@@ -142,7 +143,7 @@ SetInterval::SetInterval(std::size_t dim, double precision, const std::optional<
     ++margin.hi[axis];
   }
   cover(margin);
-  OutsideOf zone{cells, dim};
+  OutsideOf zone{*this, cells};
   exclude(reach(), zone);
   exclude_background();
 }
@@ -156,18 +157,21 @@ CellState SetInterval::at(const double* point) const {
 }
 
 CellState SetInterval::at_cell(const CellIndex& cell) const {
-  if (!reach().meets(Region::block(cell, 1, dim()), dim())) return background();
-  const CellIndex origin = root_origin();
+  std::array<std::uint64_t, 3> place{};
+  for (std::size_t axis = 0; axis < dim(); ++axis) {
+    place[axis] = static_cast<std::uint64_t>(cell[axis] - origin_[axis]);
+    if (place[axis] >= static_cast<std::uint64_t>(root_edge())) return background();
+  }
   std::uint32_t node = root_;
-  for (int shift = axis_bits() * (levels_ - 1);; shift -= axis_bits()) {
-    int bit = 0;
-    for (std::size_t axis = 0; axis < dim(); ++axis) {
-      const std::int64_t digit = ((cell[axis] - origin[axis]) >> shift) & (side() - 1);
-      bit |= static_cast<int>(digit) << (axis_bits() * static_cast<int>(axis));
-    }
+  const int bits = axis_bits();
+  const std::uint64_t digit = static_cast<std::uint64_t>(side()) - 1;
+  for (int shift = bits * (levels_ - 1);; shift -= bits) {
+    std::uint64_t bit = place[0] >> shift & digit;
+    if (dim() > 1) bit |= (place[1] >> shift & digit) << bits;
+    if (dim() > 2) bit |= (place[2] >> shift & digit) << 2 * bits;
     const Node& at = nodes_[node];
-    if (((at.mixed >> bit) & 1U) == 0) return state_of({at.lower, at.upper}, bit);
-    node = children_[at.children][static_cast<std::size_t>(bit)];
+    if ((at.mixed >> bit & 1U) == 0) return state_of({at.lower, at.upper}, static_cast<int>(bit));
+    node = children_[at.children][bit];
   }
 }
 
@@ -196,14 +200,12 @@ bool SetInterval::has_outside() const {
 // A tree of L levels covers side^L cells along an axis from -o, where o has the digit side / 2 at each of its
 // L places in base `side`. So a taller tree holds the shorter one as one of its blocks, and 0 stays well
 // inside.
-CellIndex SetInterval::root_origin() const {
+void SetInterval::place_root() {
   const std::int64_t below = (side() / 2) * ((root_edge() - 1) / (side() - 1));
-  CellIndex origin{};
-  for (std::size_t axis = 0; axis < dim(); ++axis) origin[axis] = -below;
-  return origin;
+  for (std::size_t axis = 0; axis < dim(); ++axis) origin_[axis] = -below;
 }
 
-Region SetInterval::reach() const { return Region::block(root_origin(), root_edge(), dim()); }
+Region SetInterval::reach() const { return Region::block(origin_, root_edge(), dim()); }
 
 std::uint64_t SetInterval::part_mask(std::int64_t part, int bit) const {
   return kMasks[dim()][static_cast<std::size_t>(__builtin_ctzll(static_cast<std::uint64_t>(part)))] << bit;
@@ -248,19 +250,17 @@ void SetInterval::sum_up(Block& block) const {
 std::uint64_t SetInterval::children_within(const Region& bounds, const CellIndex& origin,
                                            std::int64_t child_edge, bool wholly) const {
   const int log_edge = __builtin_ctzll(static_cast<std::uint64_t>(child_edge));
-  const std::int64_t round_up = child_edge - 1;
+  const std::int64_t round_up = child_edge - 1, most = side();
   std::uint64_t children = kAll;
   for (std::size_t axis = 0; axis < dim(); ++axis) {
     const std::int64_t lo = bounds.lo[axis] - origin[axis], hi = bounds.hi[axis] - origin[axis];
     const std::int64_t first = std::max<std::int64_t>((wholly ? lo + round_up : lo) >> log_edge, 0);
-    const std::int64_t last = std::min<std::int64_t>((wholly ? hi : hi + round_up) >> log_edge, side());
+    const std::int64_t last = std::min<std::int64_t>((wholly ? hi : hi + round_up) >> log_edge, most);
     if (first >= last) return 0;
-    // The run within one group of layers of this axis, then in every group.
-    const int stride = 1 << (axis_bits() * static_cast<int>(axis)), group = stride << axis_bits();
-    std::uint64_t run = last * stride == 64 ? kAll : (std::uint64_t{1} << (last * stride)) - 1;
-    run &= ~((std::uint64_t{1} << (first * stride)) - 1);
-    for (int width = group; width < 64; width *= 2) run |= run << width;
-    children &= run;
+    const int stride = axis_bits() * static_cast<int>(axis);
+    // The run within the first group of layers of this axis, then in every group.
+    const std::uint64_t run = (mask_of_layers(last << stride)) & ~mask_of_layers(first << stride);
+    children &= run * kEveryGroup[dim()][axis];
   }
   return children;
 }
@@ -312,7 +312,7 @@ CellIndex SetInterval::node_origin(const Block& block) const {
 
 SetInterval::Block SetInterval::root() const {
   Block block;
-  block.lo = root_origin();
+  block.lo = origin_;
   block.edge = root_edge();
   block.node = root_;
   block.mask = kAll;
@@ -322,18 +322,19 @@ SetInterval::Block SetInterval::root() const {
 }
 
 std::uint64_t SetInterval::mask_of_part(const Block& block, int corner) const {
-  const int log_children = __builtin_ctzll(static_cast<std::uint64_t>(block.edge)) - 1 -
-                           __builtin_ctzll(static_cast<std::uint64_t>(block.child_edge));
-  const std::int64_t children = std::int64_t{1} << log_children;
+  const std::int64_t children = block.edge / 2 / block.child_edge;
   return part_mask(children, __builtin_ctzll(block.mask) + part_bit(children, corner));
 }
 
 SetInterval::Block SetInterval::part(const Block& block, int corner) const {
+  return part(block, corner, block.node == kNoNode ? 0 : mask_of_part(block, corner));
+}
+
+SetInterval::Block SetInterval::part(const Block& block, int corner, std::uint64_t mask) const {
   Block part = block;
   part.edge = block.edge / 2;
+  part.mask = mask;
   for (std::size_t axis = 0; axis < dim(); ++axis) part.lo[axis] += ((corner >> axis) & 1) * part.edge;
-  if (block.node == kNoNode) return part;
-  part.mask = mask_of_part(block, corner);
   sum_up(part);
   return part;
 }
@@ -404,6 +405,7 @@ void SetInterval::grow_to(int levels) {
     free_node(placeholder);
     root_ = new_root;
     ++levels_;
+    place_root();
     refresh(root_, middle);
   }
 }
@@ -491,7 +493,7 @@ Region combine(SetInterval& target, const SetInterval& source, SetInterval::Word
   target.grow_to(source.levels_);
   Region delta;
   target.combine_node(target.root_, {source, source.root_, {}}, target.root_edge() / target.side(),
-                      target.root_origin(), op, where, delta);
+                      target.origin_, op, where, delta);
   const Planes background = op(target.background_, source.background_);
   delta.beyond = !(background == target.background_);
   target.background_ = background;

@@ -132,13 +132,14 @@ class SetInterval {
     std::uint32_t children = kNoNode;
   };
   using Children = std::array<std::uint32_t, 64>;
+  struct OutsideOf;
   struct View;  // a node of another tree, or a uniform region of it
   friend SetInterval bottom(const SetInterval& a);
 
   [[nodiscard]] int axis_bits() const { return 6 / static_cast<int>(grid_.dim()); }
   [[nodiscard]] std::int64_t side() const { return std::int64_t{1} << axis_bits(); }
   [[nodiscard]] std::int64_t root_edge() const { return std::int64_t{1} << (axis_bits() * levels_); }
-  [[nodiscard]] CellIndex root_origin() const;
+  void place_root();
   [[nodiscard]] std::uint64_t part_mask(std::int64_t part, int bit) const;
   [[nodiscard]] CellIndex child_place(const CellIndex& origin, std::int64_t child_edge, int bit) const;
   [[nodiscard]] int part_bit(std::int64_t part, int corner) const;
@@ -147,6 +148,7 @@ class SetInterval {
   [[nodiscard]] Region bounds_of(std::uint64_t children, const CellIndex& origin,
                                  std::int64_t child_edge) const;
   [[nodiscard]] std::uint64_t mask_of_part(const Block& block, int corner) const;
+  [[nodiscard]] Block part(const Block& block, int corner, std::uint64_t mask) const;
   void sum_up(Block& block) const;
   [[nodiscard]] CellIndex node_origin(const Block& block) const;
   void collect_runs(std::uint32_t node, std::int64_t child_edge, const CellIndex& origin, CellState state,
@@ -177,7 +179,8 @@ class SetInterval {
   bool empty_ = false;
   Planes background_;  // words of equal bits
   std::uint32_t root_ = 0;
-  int levels_ = 1;  // of the tree; the root's children have edge side^(levels - 1)
+  CellIndex origin_{};  // the root's first cell
+  int levels_ = 1;      // of the tree; the root's children have edge side^(levels - 1)
   std::vector<Node> nodes_;
   std::vector<Children> children_;
   std::vector<std::uint32_t> free_nodes_;

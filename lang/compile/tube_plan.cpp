@@ -223,8 +223,9 @@ class TubeBuilder {
       if (value[static_cast<Eigen::Index>(c)].is_entire()) continue;
       const Column& column = part.columns[c];
       std::string& source = readings_[*line_->gate_at(part.stamps[row])];
-      source += fmt::format("{}{}:{} column {}", source.empty() ? "" : ", ", column.table->source().name(),
-                            column.table->line(row), column.name());
+      if (!source.empty()) source += ", ";
+      source.append(column.table->source().name()).append(":");
+      source.append(std::to_string(column.table->line(row))).append(" column ").append(column.name());
     }
   }
 

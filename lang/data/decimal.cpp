@@ -105,7 +105,10 @@ double Decimal::nearest() const {
   return value;
 }
 
-Interval Decimal::enclosure() const { return Interval::of_decimal(text()); }
+Interval Decimal::enclosure() const {
+  const auto narrow = static_cast<std::int64_t>(mantissa_);
+  return narrow == mantissa_ ? Interval::of_decimal(narrow, exponent_) : Interval::of_decimal(text());
+}
 
 std::optional<int> Decimal::as_int() const {
   if (exponent_ < 0 || exponent_ > 9) return {};

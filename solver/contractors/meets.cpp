@@ -119,57 +119,74 @@ class RingFeel {
       : ring_(ring), center_place_(center), radius_place_(radius) {}
 
   void at(const Inputs&, std::size_t, const std::vector<Interval>& box) {
-    for (std::size_t k = 0; k < kDim; ++k) center_[k] = box[center_place_[k]];
-    radius_ = box[radius_place_];
+    for (std::size_t k = 0; k < kDim; ++k) center_[k] = box[center_place_[k]].bounds();
+    const Interval& radius = box[radius_place_];
+    radius_ = radius.bounds();
     // Squared distances outside these bounds have roots outside the radius, by more than the rounding of a
     // root.
     constexpr double kMargin = 0x1p-48;
-    near_ = std::max(radius_.lo(), 0.0) * up::mul_down(std::max(radius_.lo(), 0.0), 1.0 - kMargin);
-    near_ = up::mul_down(near_, 1.0 - kMargin);
-    far_ = radius_.hi() * radius_.hi() * (1.0 + kMargin);
+    const double nearest = std::max(radius.lo(), 0.0);
+    near_ = up::mul_down(up::mul_down(nearest, nearest), 1.0 - 2 * kMargin);
+    far_ = radius.hi() * radius.hi() * (1.0 + kMargin);
   }
 
   bool operator()(const std::array<Interval, 3>& block, Interval* result) const {
-    std::array<Interval, kDim> difference, square, sum;
+    std::array<Bounds, kDim> difference, square, sum;
     for (std::size_t k = 0; k < kDim; ++k) {
-      const Interval& side = block[ring_.axis[k]];
-      difference[k] = ring_.point_first[k] ? up::sub(side, center_[k]) : up::sub(center_[k], side);
-      square[k] = up::sqr(difference[k]);
-      sum[k] = k == 0 ? square[0] : up::add(sum[k - 1], square[k]);
+      const Bounds side = block[ring_.axis[k]].bounds();
+      difference[k] = ring_.point_first[k] ? side + swapped(center_[k]) : center_[k] + swapped(side);
+      square[k] = up::sqr(Interval::of_bounds(difference[k])).bounds();
+      sum[k] = k == 0 ? square[0] : sum[k - 1] + square[k];
     }
-    Interval total = sum[kDim - 1];
-    if (total.hi() < near_ || total.lo() > far_) return false;
-    const Interval radius = meet(up::sqrt(total), radius_);
-    if (radius.is_empty()) return false;
-    result[radius_place_] = radius;
-    total = up::sqrt_rev(radius, total);
-    Interval unused;
+    Bounds total = sum[kDim - 1];
+    if (total[1] < near_ || -total[0] > far_) return false;
+    const Bounds radius = least(up::root(total), radius_);
+    if (is_void(radius)) return false;
+    total = least(up::square_of_positive(radius), total);
+    bool none = is_void(total);
     for (std::size_t k = kDim; k-- > 0;) {
-      if (k == 0) {
-        square[0] = total;
-      } else {
-        Interval rest = sum[k - 1];
-        operators::Add::backward(total, rest, square[k], unused);
+      if (k > 0) {
+        const Bounds rest = least(sum[k - 1], total + swapped(square[k]));
+        square[k] = least(square[k], total + swapped(rest));
+        none = none || is_void(rest) || is_void(square[k]);
         total = rest;
+      } else {
+        square[0] = total;
       }
-      if (total.is_empty() || square[k].is_empty()) return false;
-      operators::Sqr::backward(square[k], difference[k], unused, unused);
-      Interval side = block[ring_.axis[k]], center = center_[k];
-      if (difference[k].is_empty()) return false;
-      operators::Sub::backward(difference[k], ring_.point_first[k] ? side : center,
-                               ring_.point_first[k] ? center : side, unused);
-      if (side.is_empty() || center.is_empty()) return false;
-      result[center_place_[k]] = center;
+      none = none || !contract_center(block[ring_.axis[k]].bounds(), k, square[k], difference[k], result);
     }
-    return true;
+    result[radius_place_] = Interval::of_bounds(radius);
+    return !none;
   }
 
  private:
+  static bool is_void(const Bounds& bounds) { return -bounds[0] > bounds[1]; }
+
+  // Sqr and Sub backward, from the square of the difference to the center.
+  bool contract_center(const Bounds& side, std::size_t k, const Bounds& square, const Bounds& known,
+                       Interval* result) const {
+    const Bounds root = up::root(square), nothing = Interval::empty().bounds();
+    Bounds above = least(root, known), below = least(swapped(root), known);
+    if (is_void(above)) above = nothing;
+    if (is_void(below)) below = nothing;
+    const Bounds difference = greatest(above, below);
+    Bounds center = center_[k], felt = side;
+    if (ring_.point_first[k]) {
+      felt = least(side, difference + center);
+      center = least(center, felt + swapped(difference));
+    } else {
+      center = least(center, difference + side);
+      felt = least(side, center + swapped(difference));
+    }
+    result[center_place_[k]] = Interval::of_bounds(center);
+    return !is_void(difference) && !is_void(felt) && !is_void(center);
+  }
+
   Ring ring_;
   std::array<std::size_t, 3> center_place_;  // by term: its center's place in the box
   std::size_t radius_place_;
-  std::array<Interval, kDim> center_;
-  Interval radius_;
+  std::array<Bounds, kDim> center_{};
+  Bounds radius_{};
   double near_ = 0.0, far_ = kInfinity;
 };
 
