@@ -6,12 +6,12 @@
 // which IEEE 754 specifies exactly, is relied upon.
 #include "domains/elementary_point.h"
 
-#include <array>
 #include <bit>
 #include <cmath>
 #include <cstdint>
 
 #include "domains/double_double.h"
+#include "domains/elementary_tables.h"
 #include "domains/interval_kernel.h"
 #include "domains/mpfr_scope.h"
 #include "domains/rounding.h"
@@ -59,41 +59,6 @@ Interval doubles_around(Number& number, bool inexact) {
   return doubles_around(result, ternary != 0);
 }
 
-constexpr double kSineSpacing = 0x1p-7, kAtanSpacing = 0x1p-6;  // of the arguments in the tables
-
-DoubleDouble double_double(mpfr_ptr x) {
-  const double hi = mpfr_get_d(x, MPFR_RNDN);
-  mpfr_sub_d(x, x, hi, MPFR_RNDN);
-  return {hi, mpfr_get_d(x, MPFR_RNDN)};
-}
-
-/// sin and cos of j/128 up to pi/4, atan of j/64 up to 1, each within 2^-106 relative.
-struct Tables {
-  std::array<DoubleDouble, 103> sin, cos;
-  std::array<DoubleDouble, 65> atan;
-
-  Tables() {
-    MpfrScope scope;
-    Number x(0.0), s(mpfr_prec_t{120}), c(mpfr_prec_t{120});
-    for (std::size_t j = 0; j < sin.size(); ++j) {
-      mpfr_set_d(x.get(), static_cast<double>(j) * kSineSpacing, MPFR_RNDN);
-      mpfr_sin_cos(s.get(), c.get(), x.get(), MPFR_RNDN);
-      sin[j] = double_double(s.get());
-      cos[j] = double_double(c.get());
-    }
-    for (std::size_t j = 0; j < atan.size(); ++j) {
-      mpfr_set_d(x.get(), static_cast<double>(j) * kAtanSpacing, MPFR_RNDN);
-      mpfr_atan(s.get(), x.get(), MPFR_RNDN);
-      atan[j] = double_double(s.get());
-    }
-  }
-};
-
-const Tables& tables() {
-  static const Tables instance;
-  return instance;
-}
-
 /// The tightest enclosure of sin(x + shift pi/2), and in which quarter turn [q pi/2, (q+1) pi/2) modulo 4 the
 /// argument x + shift pi/2 lies.
 struct Wave {
@@ -128,13 +93,12 @@ Wave tiny_wave(double x, int shift) {
 /// sums after it 5; what M (sin d - d) costs, 2.5 units of 2^-70 |M d|, is 1.3 more, since |M d| < 0.51 B
 /// where B is not 0; and B < 2.02 f(r). Where B is 0 (the sine, j = 0), it is the last alone.
 DoubleDouble sine_or_cosine(DoubleDouble r, bool cosine) {
-  const Tables& table = tables();
   // A little less than 1/2, so that r > 2^-8 where j > 0: both terms of d are then multiples of 2^-60 and d
   // is exact.
   const auto j = static_cast<std::size_t>(r.hi / kSineSpacing + (0.5 - 0x1p-12));
   const DoubleDouble d = two_sum(r.hi - static_cast<double>(j) * kSineSpacing, r.lo);
-  const DoubleDouble base = cosine ? table.cos[j] : table.sin[j];
-  const DoubleDouble slope = cosine ? negate(table.sin[j]) : table.cos[j];
+  const DoubleDouble base = cosine ? kCosines[j] : kSines[j];
+  const DoubleDouble slope = cosine ? negate(kSines[j]) : kCosines[j];
   const double z = d.hi * d.hi;
   const double cosine_minus_1 = z * (-0.5 + z * (1.0 / 24 - z * (1.0 / 720)));
   const double sine_minus_d = d.hi * (z * (-1.0 / 6 + z * (1.0 / 120 - z * (1.0 / 5040))));
@@ -213,7 +177,7 @@ DoubleDouble angle_in_octant(DoubleDouble y, DoubleDouble x) {
   const DoubleDouble q = j == 0 ? divide(y, x) : divide(add_multiple(y, -c, x), add_multiple(x, c, y));
   const double z = q.hi * q.hi;
   const double series = z * (-1.0 / 3 + z * (1.0 / 5 - z * (1.0 / 7 - z * (1.0 / 9))));
-  const DoubleDouble base = tables().atan[j];
+  const DoubleDouble base = kArctangents[j];
   const DoubleDouble sum = fast_two_sum(base.hi, q.hi);  // |base| > |q|, or base is 0
   return fast_two_sum(sum.hi, sum.lo + (base.lo + (q.lo + q.hi * series)));
 }

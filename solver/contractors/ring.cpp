@@ -101,86 +101,88 @@ Region DiscZone::inner_bounds() const {
   return region;
 }
 
-// Along one term's axis, for each layer of children: the greatest squared distance of its points from the
-// centers, and the least one that matters, negated so that upward sums round it down. With the outer brush
-// that is the distance of the nearest point from the nearest center; with the inner one of the point that is
-// nearest to its farthest center, for with centers [l, h] the farthest is max(a - l, h - a) away from a.
-struct DiscZone::Bounds {
+// Along one term's axis, for each layer of children, squares of distances from the centers: the greatest of
+// its points, and what decides whether it holds cells to settle. With the inner brush that is the least
+// greatest distance of its cells, rounded upward as theirs is; with the outer one the least distance of its
+// points, negated so that upward sums round it down.
+struct DiscZone::Distances {
   std::array<double, 8> greatest{};
-  std::array<double, 8> minus_least{};
+  std::array<double, 8> some{};
 };
 
-void DiscZone::bound_children(std::size_t k, const CellIndex& origin, std::int64_t child_edge,
-                              bool least_matters, Bounds& bounds) const {
+void DiscZone::measure_children(std::size_t k, const CellIndex& origin, std::int64_t child_edge,
+                                Distances& distances) const {
   // Eight layers in any dimension, in plain loops that vectorise; in space the last four are not used.
+  const std::int64_t first = origin[ring_.axis[k]];
   std::array<double, 9> line{};
-  for (std::size_t i = 0; i < 9; ++i) {
-    line[i] = grid_.line(origin[ring_.axis[k]] + static_cast<std::int64_t>(i) * child_edge);
-  }
+  for (std::size_t i = 0; i < 9; ++i) line[i] = grid_.line(first + static_cast<std::int64_t>(i) * child_edge);
   const double low = center_[k].lo(), high = center_[k].hi();
   const auto greater = [](double x, double y) { return x > y ? x : y; };
   for (std::size_t i = 0; i < 8; ++i) {
     const double greatest = greater(line[i + 1] - low, high - line[i]);
-    bounds.greatest[i] = greatest * greatest;
+    distances.greatest[i] = greatest * greatest;
   }
-  if (!least_matters) return;
-  const bool inner = brush_ == Brush::inner;
-  const double from_below = inner ? low : high, from_above = inner ? high : low;
-  const double spread = inner ? greater(up::next_down(-0.5 * (low - high)), 0.0) : 0.0;
-  for (std::size_t i = 0; i < 8; ++i) {
-    const double least = greater(greater(-(from_below - line[i]), -(line[i + 1] - from_above)), spread);
-    bounds.minus_least[i] = -least * least;
+  if (brush_ == Brush::outer) {
+    for (std::size_t i = 0; i < 8; ++i) {
+      const double least = greater(greater(-(high - line[i]), -(line[i + 1] - low)), 0.0);
+      distances.some[i] = -least * least;
+    }
+  } else if (child_edge > 1) {
+    // With centers [l, h] the farthest is at least (h - l) / 2 away from any point.
+    const double spread = greater(up::next_down(-0.5 * (low - high)), 0.0);
+    for (std::size_t i = 0; i < 8; ++i) {
+      const std::int64_t cell = first + static_cast<std::int64_t>(i) * child_edge;
+      const double of_first = grid_.line(cell + 1) - low, of_last = high - grid_.line(cell + child_edge - 1);
+      const double some = greater(greater(of_first, of_last), spread);
+      distances.some[i] = some * some;
+    }
   }
 }
 
 ChildDecisions DiscZone::decide_children(const CellIndex& origin, std::int64_t child_edge,
                                          std::uint64_t /*open*/) const {
-  std::array<Bounds, 3> bounds;
+  std::array<Distances, 3> distances;
+  for (std::size_t k = 0; k < ring_.dim; ++k) measure_children(k, origin, child_edge, distances[k]);
   const bool cells = child_edge == 1;
-  const bool inner = brush_ == Brush::inner;
-  const bool least_matters = !(cells && inner);
-  for (std::size_t k = 0; k < ring_.dim; ++k) bound_children(k, origin, child_edge, least_matters, bounds[k]);
-  // A child may hold cells to settle when its least squared distance is at most this.
-  const double some_up_to =
-      inner ? all_up_to_ : (none_from_ < kInfinity ? up::next_down(none_from_) : kInfinity);
-  ChildDecisions decisions = ring_.dim == 2 ? decide_plane(bounds, some_up_to, least_matters)
-                                            : decide_space(bounds, some_up_to, least_matters);
+  const bool asks_some = brush_ == Brush::outer || !cells;
+  ChildDecisions decisions =
+      ring_.dim == 2 ? decide_plane(distances, asks_some) : decide_space(distances, asks_some);
   if (cells)
     decisions.all |= decisions.some;  // with the outer brush, a cell that may hold a point is painted
   return decisions;
 }
 
 // Eight rows of eight. Two terms add up to the same in either order.
-ChildDecisions DiscZone::decide_plane(const std::array<Bounds, 3>& bounds, double some_up_to,
-                                      bool least_matters) const {
-  const Bounds& along = bounds[ring_.axis[0] == 0 ? 0 : 1];
-  const Bounds& across = bounds[ring_.axis[0] == 0 ? 1 : 0];
+ChildDecisions DiscZone::decide_plane(const std::array<Distances, 3>& distances, bool asks_some) const {
+  const Distances& along = distances[ring_.axis[0] == 0 ? 0 : 1];
+  const Distances& across = distances[ring_.axis[0] == 0 ? 1 : 0];
   ChildDecisions decisions;
   for (std::size_t j = 0; j < 8; ++j) {
     decisions.all |= sums_at_most(along.greatest.data(), across.greatest[j], all_up_to_) << (8 * j);
   }
-  for (std::size_t j = 0; j < 8 && least_matters; ++j) {
-    // sum <= limit, both negated, is -sum >= -limit: all but those with -sum <= the double below -limit.
-    const double below = up::next_down(-some_up_to);
-    decisions.some |= (~sums_at_most(along.minus_least.data(), across.minus_least[j], below) & 0xff)
-                      << (8 * j);
+  const bool outer = brush_ == Brush::outer;
+  // Outer: the least is below none_from where the negated sum is not at most -none_from.
+  const double limit = outer ? -none_from_ : all_up_to_;
+  for (std::size_t j = 0; j < 8 && asks_some; ++j) {
+    const std::uint64_t row = sums_at_most(along.some.data(), across.some[j], limit);
+    decisions.some |= (outer ? ~row & 0xff : row) << (8 * j);
   }
   return decisions;
 }
 
 // Four layers of four rows of four, summed in the order of the terms, as the general path adds them.
-ChildDecisions DiscZone::decide_space(const std::array<Bounds, 3>& bounds, double some_up_to,
-                                      bool least_matters) const {
+ChildDecisions DiscZone::decide_space(const std::array<Distances, 3>& distances, bool asks_some) const {
   ChildDecisions decisions;
+  const bool outer = brush_ == Brush::outer;
   for (std::size_t place = 0; place < 64; ++place) {
     const std::size_t i = place % 4, j = place / 4 % 4, h = place / 16;
     const std::size_t bit =
         (i << (2 * ring_.axis[0])) + (j << (2 * ring_.axis[1])) + (h << (2 * ring_.axis[2]));
-    const double greatest = (bounds[0].greatest[i] + bounds[1].greatest[j]) + bounds[2].greatest[h];
-    const double minus_least =
-        (bounds[0].minus_least[i] + bounds[1].minus_least[j]) + bounds[2].minus_least[h];
+    const double greatest = (distances[0].greatest[i] + distances[1].greatest[j]) + distances[2].greatest[h];
+    const double some = (distances[0].some[i] + distances[1].some[j]) + distances[2].some[h];
     decisions.all |= static_cast<std::uint64_t>(greatest <= all_up_to_) << bit;
-    decisions.some |= static_cast<std::uint64_t>(least_matters && -minus_least <= some_up_to) << bit;
+    const bool may = outer ? some > -none_from_ : some <= all_up_to_;
+    decisions.some |= static_cast<std::uint64_t>(asks_some && may) << bit;
   }
   return decisions;
 }

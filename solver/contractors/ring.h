@@ -39,13 +39,11 @@ class DiscZone {
                                                std::uint64_t open) const;
 
  private:
-  struct Bounds;
-  void bound_children(std::size_t k, const CellIndex& origin, std::int64_t child_edge, bool least_matters,
-                      Bounds& bounds) const;
-  [[nodiscard]] ChildDecisions decide_plane(const std::array<Bounds, 3>& bounds, double some_up_to,
-                                            bool least_matters) const;
-  [[nodiscard]] ChildDecisions decide_space(const std::array<Bounds, 3>& bounds, double some_up_to,
-                                            bool least_matters) const;
+  struct Distances;
+  void measure_children(std::size_t k, const CellIndex& origin, std::int64_t child_edge,
+                        Distances& distances) const;
+  [[nodiscard]] ChildDecisions decide_plane(const std::array<Distances, 3>& distances, bool asks_some) const;
+  [[nodiscard]] ChildDecisions decide_space(const std::array<Distances, 3>& distances, bool asks_some) const;
 
   const Grid& grid_;
   const Ring& ring_;

@@ -73,18 +73,18 @@ class RelationZone {
     is_loaded_ = true;
   }
 
-  // The children along an axis are layers of lanes.
+  // The children along an axis are layers of lanes. As a core a layer is what its cells have in common: from
+  // the last one's lower face to the first one's upper face, improper unless they are the same.
   void set_children(Evaluation& evaluation, const CellIndex& origin, std::int64_t child_edge,
                     bool as_cores) const {
     std::size_t stride = 1;
     for (std::size_t axis = 0; axis < point_.size(); ++axis, stride *= side_) {
       if (point_[axis] == Inputs::kNone) continue;
-      double lo = grid_->line(origin[axis]);
       for (std::size_t layer = 0; layer < side_; ++layer) {
-        const double hi = grid_->line(origin[axis] + static_cast<std::int64_t>(layer + 1) * child_edge);
-        evaluation.set(point_[axis], as_cores ? Interval::raw(hi, lo) : Interval::raw(lo, hi),
-                       layer * stride);
-        lo = hi;
+        const std::int64_t first = origin[axis] + static_cast<std::int64_t>(layer) * child_edge;
+        const std::int64_t last = first + child_edge - 1;
+        const std::int64_t lo = as_cores ? last : first, hi = as_cores ? first : last;
+        evaluation.set(point_[axis], Interval::raw(grid_->line(lo), grid_->line(hi + 1)), layer * stride);
       }
     }
   }

@@ -87,11 +87,11 @@ class Evaluation {
     wanted_ = wanted;
     forward_from_point(kMaxLanes);
   }
-  /// Over children, with the bound point in each given as the improper interval [hi, lo] of its layers: for
-  /// every register bounds K that what forward gives at any one point of the child holds, K.lo >= lo and K.hi
-  /// <= hi, possibly improper themselves (Kaucher's order; definedness is taken for granted). A relation that
-  /// is certain at some point of the child has the core [1, 1] or [1, 0]. To the last bit: forward operations
-  /// are isotone.
+  /// Over children, with the bound point in each given as what its cells have in common, [hi, lo] being
+  /// improper: for every register bounds K that what forward gives on any one cell of the child holds, K.lo
+  /// >= lo and K.hi <= hi, possibly improper themselves (Kaucher's order; definedness is taken for granted).
+  /// A relation that is certain on some cell of the child has the core [1, 1] or [1, 0]. To the last bit:
+  /// forward operations are isotone.
   void core_over_children(std::uint64_t wanted) {
     wanted_ = wanted;
     run_forward<true>(program_->point_code(), program_->code().size(), kMaxLanes);

@@ -3,9 +3,11 @@
 // for isotony, and against known hulls.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <string>
 #include <vector>
 
+#include "domains/elementary_tables.h"
 #include "domains/interval_kernel.h"
 #include "domains/rounding.h"
 #include "tests/support/truth.h"
@@ -28,6 +30,27 @@ void expect_tightest_waves(double x) {
   const Interval point(x);
   EXPECT_EQ(sin(point), truth(mpfr_sin, x)) << told(point, point);
   EXPECT_EQ(cos(point), truth(mpfr_cos, x)) << told(point, point);
+}
+
+// How far a table's value is from the function's, relative to it, in units of 2^-106.
+double units_off(oracle::Unary function, double x, const DoubleDouble& value) {
+  oracle::Real truth(x, 400), stored(value.hi, 400);
+  function(truth.get(), truth.get(), MPFR_RNDN);
+  mpfr_add_d(stored.get(), stored.get(), value.lo, MPFR_RNDN);
+  mpfr_sub(stored.get(), stored.get(), truth.get(), MPFR_RNDN);
+  if (mpfr_zero_p(stored.get()) != 0) return 0.0;
+  mpfr_div(stored.get(), stored.get(), truth.get(), MPFR_RNDN);
+  return std::abs(mpfr_get_d(stored.get(), MPFR_RNDA)) * 0x1p106;
+}
+
+TEST(Elementary, TablesAreRight) {
+  for (std::size_t j = 0; j < kSines.size(); ++j) {
+    const double x = static_cast<double>(j) * kSineSpacing;
+    EXPECT_LE(units_off(mpfr_sin, x, kSines[j]), 1.0) << j;
+    EXPECT_LE(units_off(mpfr_cos, x, kCosines[j]), 1.0) << j;
+  }
+  for (std::size_t j = 0; j < kArctangents.size(); ++j)
+    EXPECT_LE(units_off(mpfr_atan, static_cast<double>(j) * kAtanSpacing, kArctangents[j]), 1.0) << j;
 }
 
 TEST(Elementary, PiIsTightest) {
