@@ -23,10 +23,11 @@ struct Problem::Impl {
   std::vector<DomainKind> kinds;  // by variable
   std::shared_ptr<const TimeLine> line;
   std::shared_ptr<std::set<VariableId>> sampled = std::make_shared<std::set<VariableId>>();
+  std::shared_ptr<Motions> motions = std::make_shared<Motions>();
   std::map<VariableId, std::vector<Reading>> readings;
   bool fast_paths = true;
 
-  [[nodiscard]] Inputs::Context context() const { return {line, sampled}; }
+  [[nodiscard]] Inputs::Context context() const { return {line, sampled, motions}; }
 
   template <Lattice D>
   VariableId add(const std::string& variable, D domain, DomainKind kind, bool hidden = false) {

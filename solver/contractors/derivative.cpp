@@ -35,7 +35,7 @@ Interval slice_hull(const Interval& x0, const Interval& x1, const Interval& v, c
   return Interval::raw(-slice_upper(-x0.lo(), -x1.lo(), -v, dt), slice_upper(x0.hi(), x1.hi(), v, dt));
 }
 
-class DerivativeContractor final : public Contractor {
+class DerivativeContractor final : public Contractor, public Motion {
  public:
   DerivativeContractor(const std::string& name, VariableId x, std::size_t dim, Program program, Inputs inputs,
                        std::shared_ptr<const TimeLine> line)
@@ -48,6 +48,14 @@ class DerivativeContractor final : public Contractor {
         evaluation_(program_, kLanes),
         slopes_(dim, std::vector<Interval>(line_->slices())),
         steps_(slopes_) {}
+
+  void begin() override {
+    for (auto& steps : steps_) std::fill(steps.begin(), steps.end(), Interval::entire());
+  }
+
+  [[nodiscard]] const Interval& step(std::size_t component, std::size_t slice) const override {
+    return steps_[component][slice];
+  }
 
   void contract(Access& access) override {
     RoundUpward guard;
@@ -186,8 +194,10 @@ std::unique_ptr<Contractor> make_derivative_contractor(std::string name, Variabl
                                                        const Inputs::Context& context) {
   Program program(dag, f);
   Inputs inputs(program, context);
-  return std::make_unique<DerivativeContractor>(name, x, dim, std::move(program), std::move(inputs),
-                                                context.line);
+  auto contractor = std::make_unique<DerivativeContractor>(name, x, dim, std::move(program),
+                                                           std::move(inputs), context.line);
+  (*context.motions)[x].push_back(contractor.get());
+  return contractor;
 }
 
 }  // namespace hcsp

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "domains/interval_kernel.h"
+
 namespace hcsp {
 
 Inputs::Inputs(const Program& program, Context context)
@@ -105,6 +107,26 @@ bool Inputs::narrow(std::uint32_t i, std::size_t item, const Interval& bound) {
   Interval& target = place.kind == Input::Kind::real ? *place.real : (*place.vector)[input.component];
   place.changed = contract(target, bound).changed || place.changed;
   return !target.is_empty();
+}
+
+bool Inputs::carry(std::size_t item, Direction sweep) {
+  if (!timed_ || item % 2 != 0) return false;
+  const bool forward = sweep == Direction::forward;
+  if (item == (forward ? 0 : context_.line->items() - 1)) return false;
+  const std::size_t from = forward ? item - 2 : item + 2, slice = (forward ? item - 1 : item + 1) / 2;
+  bool changed = false;
+  for (const std::uint32_t i : contractible_) {
+    if (inputs_[i].kind != Input::Kind::tube) continue;
+    const auto motions = context_.motions->find(inputs_[i].variable);
+    if (motions == context_.motions->end()) continue;
+    for (const Motion* motion : motions->second) {
+      const Interval& step = motion->step(inputs_[i].component, slice);
+      const Interval before = value(i, item), start = value(i, from);
+      narrow(i, item, forward ? up::add(start, step) : up::sub(start, step));
+      changed = changed || !(value(i, item) == before);
+    }
+  }
+  return changed;
 }
 
 bool Inputs::store(const Evaluation& evaluation, std::size_t item, std::size_t lane) {

@@ -9,6 +9,7 @@
 
 #include "domains/box.h"
 #include "domains/tube.h"
+#include "solver/contractors/motion.h"
 #include "solver/engine/propagation.h"
 #include "solver/expression/program.h"
 
@@ -20,6 +21,7 @@ class Inputs {
   struct Context {
     std::shared_ptr<const TimeLine> line;                 ///< null when the problem has no time
     std::shared_ptr<const std::set<VariableId>> sampled;  ///< the tubes that are known at their readings only
+    std::shared_ptr<Motions> motions;                     ///< of the tubes; may still grow
   };
   Inputs(const Program& program, Context context);
 
@@ -45,6 +47,10 @@ class Inputs {
   void load(Evaluation& evaluation, std::size_t item, std::size_t lane = 0) const;
   /// Meets the domain of one input at an item with a bound; false when that empties it.
   bool narrow(std::uint32_t input, std::size_t item, const Interval& bound);
+  enum class Direction : std::uint8_t { forward, backward };
+  /// Narrows the tubes at a gate by what their motions make of them at the gate before, in a sweep forward,
+  /// or after. Tells whether that changed any.
+  bool carry(std::size_t item, Direction sweep);
   /// narrow() for every contractible input of a lane.
   bool store(const Evaluation& evaluation, std::size_t item, std::size_t lane = 0);
   /// Reports what narrow() changed since open(); a failure names the item where a domain became empty.

@@ -33,16 +33,27 @@ class MeetsContractor final : public Contractor {
     const bool set_changed = !access.delta<SetInterval>(set_).is_none();
     const ItemSet changed = inputs_.changed(access);
     const ItemSet items = set_changed ? ItemSet::all(inputs_.items()) : changed;
-    bool alive = true;
-    std::size_t neighbour = 0;
+    in_time_.clear();
     items.for_each([&](std::size_t item) {
-      if (!alive || inputs_.no_reading_at(item) || access.should_stop()) return;
-      // The box is as the last look left it, fully supported: it still is, if its witnesses are still in S+.
-      if (!changed.contains(item) && search_.all_stand(set, &witnesses_[item * search_.faces()])) return;
-      alive = contract_at(set, item, neighbour);
-      if (!alive) access.fail(inputs_.variables().empty() ? set_ : inputs_.blamed(), inputs_.when(item));
-      neighbour = item;
+      if (!inputs_.no_reading_at(item)) in_time_.push_back(item);
     });
+    // A sweep forward looks at every item, one back at those where what was found later matters.
+    std::size_t neighbour = 0;
+    const auto look = [&](std::size_t item) {
+      if (!contract_at(set, item, neighbour)) {
+        access.fail(inputs_.variables().empty() ? set_ : inputs_.blamed(), inputs_.when(item));
+      }
+      neighbour = item;
+    };
+    for (const std::size_t item : in_time_) {
+      if (access.should_stop()) break;
+      const bool moved = inputs_.carry(item, Inputs::Direction::forward) || changed.contains(item);
+      // The box is as the last look left it, fully supported: it still is, if its witnesses are still in S+.
+      if (moved || !search_.all_stand(set, &witnesses_[item * search_.faces()])) look(item);
+    }
+    for (auto item = in_time_.rbegin(); item != in_time_.rend() && !access.should_stop(); ++item) {
+      if (inputs_.carry(*item, Inputs::Direction::backward)) look(*item);
+    }
     inputs_.report(access);
   }
 
@@ -72,6 +83,7 @@ class MeetsContractor final : public Contractor {
   SupportSearch search_;
   std::vector<CellIndex> witnesses_;  // by item and face: a cell that supported the face when last looked at
   std::vector<Interval> box_;
+  std::vector<std::size_t> in_time_;  // the items at hand
 };
 
 // The general feeler: HC4-revise of the relation with the bound point in a block.

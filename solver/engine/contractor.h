@@ -34,6 +34,9 @@ class Contractor {
   Contractor(const Contractor&) = delete;
   Contractor& operator=(const Contractor&) = delete;
 
+  /// A run begins, on domains that may be any: forgets what only held in another run.
+  virtual void begin() {}
+
   /// Contracts the domains of writes() with regard to those of reads(). `access` tells what changed in each
   /// since the last run (everything, the first time) and takes the Deltas that this run caused, after which
   /// the contractor is woken by what others do, and by its own changes too unless it says access.settled().

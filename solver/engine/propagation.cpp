@@ -98,6 +98,7 @@ bool Propagation::end_pass(Observer* observer) {
 }
 
 Ending Propagation::run(Observer* observer) {
+  for (const auto& contractor : graph_.contractors()) contractor->begin();
   failure_.reset();
   for (VariableId v = 0; v < slots_.size(); ++v) {
     slots_[v]->wake_all(graph_.variable(v).readers().size());
