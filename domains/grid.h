@@ -30,6 +30,19 @@ class Grid {
     const std::int64_t place = i + kTabulated;
     return place >= 0 && place <= 2 * kTabulated ? lines_[static_cast<std::size_t>(place)] : exact_line(i);
   }
+  /// line(first), line(first + step) and so on.
+  template <std::size_t kCount>
+  [[nodiscard]] std::array<double, kCount> lines(std::int64_t first, std::int64_t step) const {
+    std::array<double, kCount> lines{};
+    const std::int64_t place = first + kTabulated;
+    const bool tabulated =
+        place >= 0 && place + step * static_cast<std::int64_t>(kCount - 1) <= 2 * kTabulated;
+    for (std::size_t i = 0; i < kCount; ++i) {
+      const std::int64_t ahead = step * static_cast<std::int64_t>(i);
+      lines[i] = tabulated ? lines_[static_cast<std::size_t>(place + ahead)] : exact_line(first + ahead);
+    }
+    return lines;
+  }
   /// The cell that holds x: line(i) <= x < line(i + 1); clamped to the addressable cells.
   [[nodiscard]] std::int64_t cell_of(double x) const;
 

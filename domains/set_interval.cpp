@@ -23,6 +23,8 @@ CellState state_of(const Planes& planes, int bit) {
                : (upper ? CellState::unknown : CellState::outside);
 }
 
+int log2(std::int64_t power_of_two) { return __builtin_ctzll(static_cast<std::uint64_t>(power_of_two)); }
+
 // The lowest bits, one a layer along an axis.
 constexpr std::uint64_t mask_of_layers(std::int64_t side) {
   return side == 64 ? kAll : (std::uint64_t{1} << side) - 1;
@@ -208,7 +210,7 @@ void SetInterval::place_root() {
 Region SetInterval::reach() const { return Region::block(origin_, root_edge(), dim()); }
 
 std::uint64_t SetInterval::part_mask(std::int64_t part, int bit) const {
-  return kMasks[dim()][static_cast<std::size_t>(__builtin_ctzll(static_cast<std::uint64_t>(part)))] << bit;
+  return kMasks[dim()][static_cast<std::size_t>(log2(part))] << bit;
 }
 
 CellIndex SetInterval::child_place(const CellIndex& origin, std::int64_t child_edge, int bit) const {
@@ -238,6 +240,7 @@ void SetInterval::sum_up(Block& block) const {
   if (block.edge == block.child_edge && block.child_edge > 1) {  // one child: go down to it
     if ((node.mixed & block.mask) != 0) {
       block.node = children_[node.children][static_cast<std::size_t>(__builtin_ctzll(block.mask))];
+      block.node_lo = block.lo;
       block.mask = kAll;
       block.child_edge >>= axis_bits();
     } else {
@@ -249,7 +252,7 @@ void SetInterval::sum_up(Block& block) const {
 // The children of a node that meet a box of cells, or lie wholly in it: along each axis a run of layers.
 std::uint64_t SetInterval::children_within(const Region& bounds, const CellIndex& origin,
                                            std::int64_t child_edge, bool wholly) const {
-  const int log_edge = __builtin_ctzll(static_cast<std::uint64_t>(child_edge));
+  const int log_edge = log2(child_edge);
   const std::int64_t round_up = child_edge - 1, most = side();
   std::uint64_t children = kAll;
   for (std::size_t axis = 0; axis < dim(); ++axis) {
@@ -298,21 +301,12 @@ Region SetInterval::bounds_of(std::uint64_t children, const CellIndex& origin,
 
 Region SetInterval::upper_bounds(const Block& block) const {
   if (block.node == kNoNode) return Region::block(block.lo, block.edge, dim());
-  const CellIndex origin = node_origin(block);
-  return bounds_of(nodes_[block.node].upper & block.mask, origin, block.child_edge);
-}
-
-// Where the node that holds a block begins.
-CellIndex SetInterval::node_origin(const Block& block) const {
-  const CellIndex first = child_place({}, block.child_edge, __builtin_ctzll(block.mask));
-  CellIndex origin = block.lo;
-  for (std::size_t axis = 0; axis < dim(); ++axis) origin[axis] -= first[axis];
-  return origin;
+  return bounds_of(nodes_[block.node].upper & block.mask, block.node_lo, block.child_edge);
 }
 
 SetInterval::Block SetInterval::root() const {
   Block block;
-  block.lo = origin_;
+  block.lo = block.node_lo = origin_;
   block.edge = root_edge();
   block.node = root_;
   block.mask = kAll;
@@ -322,7 +316,7 @@ SetInterval::Block SetInterval::root() const {
 }
 
 std::uint64_t SetInterval::mask_of_part(const Block& block, int corner) const {
-  const std::int64_t children = block.edge / 2 / block.child_edge;
+  const std::int64_t children = (block.edge >> log2(block.child_edge)) / 2;
   return part_mask(children, __builtin_ctzll(block.mask) + part_bit(children, corner));
 }
 

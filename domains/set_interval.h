@@ -86,6 +86,7 @@ class SetInterval {
     CellIndex lo{};          ///< its first cell
     std::int64_t edge = 0;   ///< cells along an edge, a power of two
     std::uint32_t node = 0;  ///< the node that holds it, or kNoNode within a uniform block
+    CellIndex node_lo{};     ///< and its first cell
     std::uint64_t mask = 0;  ///< its children in that node
     std::int64_t child_edge = 0;
     bool any_upper = false;  ///< some cell is in A+
@@ -150,7 +151,6 @@ class SetInterval {
   [[nodiscard]] std::uint64_t mask_of_part(const Block& block, int corner) const;
   [[nodiscard]] Block part(const Block& block, int corner, std::uint64_t mask) const;
   void sum_up(Block& block) const;
-  [[nodiscard]] CellIndex node_origin(const Block& block) const;
   void collect_runs(std::uint32_t node, std::int64_t child_edge, const CellIndex& origin, CellState state,
                     std::vector<Region>& runs) const;
   [[nodiscard]] double volume_of(const std::vector<Region>& cells, bool upward) const;

@@ -114,8 +114,7 @@ void DiscZone::measure_children(std::size_t k, const CellIndex& origin, std::int
                                 Distances& distances) const {
   // Eight layers in any dimension, in plain loops that vectorise; in space the last four are not used.
   const std::int64_t first = origin[ring_.axis[k]];
-  std::array<double, 9> line{};
-  for (std::size_t i = 0; i < 9; ++i) line[i] = grid_.line(first + static_cast<std::int64_t>(i) * child_edge);
+  const auto line = grid_.lines<9>(first, child_edge);
   const double low = center_[k].lo(), high = center_[k].hi();
   const auto greater = [](double x, double y) { return x > y ? x : y; };
   for (std::size_t i = 0; i < 8; ++i) {
@@ -130,10 +129,10 @@ void DiscZone::measure_children(std::size_t k, const CellIndex& origin, std::int
   } else if (child_edge > 1) {
     // With centers [l, h] the farthest is at least (h - l) / 2 away from any point.
     const double spread = greater(up::next_down(-0.5 * (low - high)), 0.0);
+    const auto top_of_first = grid_.lines<8>(first + 1, child_edge);
+    const auto bottom_of_last = grid_.lines<8>(first + child_edge - 1, child_edge);
     for (std::size_t i = 0; i < 8; ++i) {
-      const std::int64_t cell = first + static_cast<std::int64_t>(i) * child_edge;
-      const double of_first = grid_.line(cell + 1) - low, of_last = high - grid_.line(cell + child_edge - 1);
-      const double some = greater(greater(of_first, of_last), spread);
+      const double some = greater(greater(top_of_first[i] - low, high - bottom_of_last[i]), spread);
       distances.some[i] = some * some;
     }
   }
