@@ -40,7 +40,7 @@ class Planner {
     if (!box) return {};
     TubePart part;
     for (Eigen::Index i = 0; i < box->dim(); ++i) part.domain.push_back((*box)[i]);
-    return TubePlan{part};
+    return plan_of(std::move(part));
   }
 
   std::optional<TubePlan> rows(const Expr& expr, BuiltIn function) {
@@ -59,7 +59,13 @@ class Planner {
       part.max_range = evaluator_.number(*expr.operands[3]);
       if (!part.max_range) return {};
     }
-    return TubePlan{part};
+    return plan_of(std::move(part));
+  }
+
+  static TubePlan plan_of(TubePart part) {
+    TubePlan plan;
+    plan.push_back(std::move(part));
+    return plan;
   }
 
   // A value that holds cannot be missing.
@@ -121,7 +127,7 @@ class Planner {
         return false;
       }
     }
-    part.errors.push_back(error);
+    part.errors.emplace_back(error);
     return true;
   }
 
@@ -135,9 +141,7 @@ class Planner {
       part.domain[i] = part.domain[i] + join(-e.enclosure, e.enclosure);
       return true;
     }
-    Column everywhere = part.columns[i];
-    for (CellValue& cell : everywhere.cells) cell = {CellValue::Kind::number, e};
-    part.errors.push_back(std::move(everywhere));
+    part.errors.emplace_back(e);
     return true;
   }
 
@@ -145,17 +149,20 @@ class Planner {
   Evaluator& evaluator_;
 };
 
+const Number* error_of(const TubePart& part, std::size_t component, std::size_t row) {
+  if (part.errors.empty()) return nullptr;
+  const auto& error = part.errors[component];
+  if (const Number* everywhere = std::get_if<Number>(&error)) return everywhere;
+  const CellValue& cell = std::get<Column>(error).cells[row];
+  return cell.kind == CellValue::Kind::number ? &cell.number : nullptr;
+}
+
 // What a row says about a component.
 Interval bound(const TubePart& part, std::size_t component, std::size_t row) {
   const CellValue& cell = part.columns[component].cells[row];
-  const CellValue* error = part.errors.empty() ? nullptr : &part.errors[component].cells[row];
-  const bool has_error = error != nullptr && error->kind == CellValue::Kind::number;
-  const auto low = [&](const Number& n) {
-    return has_error ? (n - error->number).enclosure.lo() : n.enclosure.lo();
-  };
-  const auto high = [&](const Number& n) {
-    return has_error ? (n + error->number).enclosure.hi() : n.enclosure.hi();
-  };
+  const Number* error = error_of(part, component, row);
+  const auto low = [&](const Number& n) { return error ? (n - *error).enclosure.lo() : n.enclosure.lo(); };
+  const auto high = [&](const Number& n) { return error ? (n + *error).enclosure.hi() : n.enclosure.hi(); };
   switch (cell.kind) {
     case CellValue::Kind::number:
       return {low(cell.number), high(cell.number)};

@@ -6,6 +6,7 @@
 
 #include <memory>
 #include <optional>
+#include <variant>
 #include <vector>
 
 #include "domains/tube.h"
@@ -20,8 +21,8 @@ struct TubePart {
   std::vector<Interval> domain;  ///< of a constant: a component each
   SourceRange range;             ///< the call of hold or sampled
   std::vector<double> stamps;
-  std::vector<Column> columns;  ///< a component each
-  std::vector<Column> errors;   ///< none, or a component each: `+-`
+  std::vector<Column> columns;                       ///< a component each
+  std::vector<std::variant<Number, Column>> errors;  ///< none, or a component each: `+-`
   std::optional<Number> max_range;
 
   [[nodiscard]] std::size_t dim() const { return kind == Kind::constant ? domain.size() : columns.size(); }
