@@ -5,7 +5,7 @@
 #include <Eigen/Core>
 #include <initializer_list>
 
-#include "domains/interval.h"
+#include "domains/interval/interval.h"
 
 namespace Eigen {
 template <>

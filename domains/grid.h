@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "domains/interval.h"
+#include "domains/interval/interval.h"
 
 namespace hcsp {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The one place that touches the floating-point environment. Kernels (interval_kernel.h) assume upward
+// The one place that touches the floating-point environment. Kernels (interval/kernel.h) assume upward
 // rounding with gradual underflow; the guards set it and leave the caller's environment exactly as found.
 #pragma once
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <tuple>
 
-#include "domains/interval_kernel.h"
+#include "domains/interval/kernel.h"
 #include "domains/rounding.h"
 #include "domains/set_interval.h"
 

@@ -9,7 +9,7 @@
 #include <optional>
 #include <vector>
 
-#include "domains/interval.h"
+#include "domains/interval/interval.h"
 
 namespace hcsp {
 

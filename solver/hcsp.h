@@ -3,7 +3,7 @@
 #pragma once
 
 #include "domains/box.h"
-#include "domains/interval.h"
+#include "domains/interval/interval.h"
 #include "domains/lattice.h"
 #include "domains/set_interval.h"
 #include "domains/tube.h"

@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-#include "domains/interval.h"
+#include "domains/interval/interval.h"
 
 namespace hcsp::lang {
 

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "domains/interval_kernel.h"
+#include "domains/interval/kernel.h"
 #include "domains/rounding.h"
 
 namespace hcsp {

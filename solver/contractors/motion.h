@@ -8,7 +8,7 @@
 #include <memory>
 #include <vector>
 
-#include "domains/interval.h"
+#include "domains/interval/interval.h"
 #include "solver/engine/ids.h"
 
 namespace hcsp {

@@ -9,7 +9,7 @@
 #include <map>
 #include <vector>
 
-#include "domains/interval.h"
+#include "domains/interval/interval.h"
 #include "solver/engine/ids.h"
 
 namespace hcsp {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The operators of expressions: one operator, one struct, and one table of them all. A struct tells
-//   forward    an enclosure of the values on a box of operands (upward rounding: interval_kernel.h);
+//   forward    an enclosure of the values on a box of operands (upward rounding: interval/kernel.h);
 //   defined    whether the operator is defined on all of that box (the decoration `def` of IEEE
 //   1788-2015, 11.2); backward   contracts the operands to the part from which a value in y can come
 //   (HC4-revise); partial    the derivative with regard to operand k, as a node.
@@ -12,7 +12,8 @@
 #include <string_view>
 #include <type_traits>
 
-#include "domains/interval_kernel.h"
+#include "domains/interval/kernel.h"
+#include "domains/interval/reverse.h"
 #include "solver/expression/dag.h"
 
 namespace hcsp {

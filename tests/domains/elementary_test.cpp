@@ -7,8 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "domains/elementary_tables.h"
-#include "domains/interval_kernel.h"
+#include "domains/interval/elementary_tables.h"
+#include "domains/interval/kernel.h"
+#include "domains/interval/reverse.h"
 #include "domains/rounding.h"
 #include "tests/support/truth.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Interval: lattice laws; forward operations bit for bit against MPFR; reverse operations on sampled
 // solutions; text.
-#include "domains/interval.h"
+#include "domains/interval/interval.h"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "domains/interval_kernel.h"
+#include "domains/interval/kernel.h"
 #include "domains/rounding.h"
 #include "tests/support/laws.h"
 #include "tests/support/truth.h"

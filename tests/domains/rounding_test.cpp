@@ -3,6 +3,7 @@
 // denormals-are-zero flags it set, results are the same bits and the environment is left as found, on every
 // thread.
 #include "domains/rounding.h"
+#include "domains/interval/reverse.h"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +11,7 @@
 #include <thread>
 #include <vector>
 
-#include "domains/interval_kernel.h"
+#include "domains/interval/kernel.h"
 #include "tests/support/truth.h"
 
 namespace hcsp {

@@ -2,7 +2,7 @@
 // A program outside the project: adds two intervals with the installed library.
 #include <cstdio>
 
-#include "domains/interval.h"
+#include "domains/interval/interval.h"
 
 int main() {
   const hcsp::Interval sum = hcsp::Interval(1, 2) + hcsp::Interval::of_decimal("0.5");

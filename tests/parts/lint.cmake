@@ -12,7 +12,7 @@ hcsp_add_canary(private_member "invalid case style for private member 'value'")
 hcsp_add_canary(constant "invalid case style for global constant 'bad_constant'")
 hcsp_add_canary(bugprone "bugprone-use-after-move")
 hcsp_add_canary(performance "performance-unnecessary-value-param")
-foreach(file domains/interval.cpp solver/engine/graph.cpp examples/simulate_slam.cpp)
+foreach(file domains/interval/interval.cpp solver/engine/graph.cpp examples/simulate_slam.cpp)
   string(REPLACE "/" "_" name ${file})
   add_test(NAME lint.${name} COMMAND ${HCSP_CLANG_TIDY} --quiet ${PROJECT_SOURCE_DIR}/${file} --
     -std=c++20 -I${PROJECT_SOURCE_DIR} -isystem $<TARGET_PROPERTY:Eigen3::Eigen,INTERFACE_INCLUDE_DIRECTORIES>)

@@ -10,7 +10,7 @@
 #include <memory>
 #include <vector>
 
-#include "domains/interval.h"
+#include "domains/interval/interval.h"
 #include "examples/slam_simulator.h"
 
 namespace hcsp::soundness {

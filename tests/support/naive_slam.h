@@ -8,7 +8,7 @@
 #include <optional>
 #include <vector>
 
-#include "domains/interval.h"
+#include "domains/interval/interval.h"
 
 namespace hcsp::naive {
 

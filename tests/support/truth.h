@@ -13,7 +13,7 @@
 #include <random>
 #include <vector>
 
-#include "domains/interval.h"
+#include "domains/interval/interval.h"
 
 namespace hcsp {
 

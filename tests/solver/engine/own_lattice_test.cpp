@@ -7,7 +7,7 @@
 #include <bit>
 #include <cstdint>
 
-#include "domains/interval.h"
+#include "domains/interval/interval.h"
 #include "solver/engine/propagation.h"
 #include "tests/support/laws.h"
 #include "tests/support/oracle.h"

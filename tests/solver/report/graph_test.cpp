@@ -4,7 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "domains/interval.h"
+#include "domains/interval/interval.h"
 #include "solver/engine/graph.h"
 #include "tests/solver/report/sample_result.h"
 #include "tests/solver/report/well_formed.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Interval::of_decimal: the tightest interval around a number as written. Decimals of up to 18 digits and 22
 // places, which is what data files hold, are decided in double-double arithmetic; MPFR reads the others.
-#include "domains/interval.h"
+#include "domains/interval/interval.h"
 
 #include <fmt/format.h>
 
@@ -13,8 +13,8 @@
 #include <string>
 
 #include "domains/check.h"
-#include "domains/double_double.h"
-#include "domains/mpfr_scope.h"
+#include "domains/interval/double_double.h"
+#include "domains/interval/mpfr_scope.h"
 #include "domains/rounding.h"
 
 namespace hcsp {

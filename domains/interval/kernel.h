@@ -10,7 +10,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "domains/interval.h"
+#include "domains/interval/interval.h"
 
 namespace hcsp::up {
 
@@ -139,7 +139,7 @@ inline Interval abs_rev(const Interval& c, const Interval& x) {
 }
 
 /// {x in X : x^2 in c}.
-inline Interval sqr_rev(const Interval& c, const Interval& x) { return abs_rev(up::sqrt(c), x); }
+inline Interval sqr_rev(const Interval& c, const Interval& x) { return up::abs_rev(up::sqrt(c), x); }
 
 /// {x in X : sqrt(x) in c}.
 inline Interval sqrt_rev(const Interval& c, const Interval& x) {
@@ -161,14 +161,3 @@ inline Interval max_rev(const Interval& b, const Interval& c, const Interval& x)
 }
 
 }  // namespace hcsp::up
-
-namespace hcsp {
-
-// Elementary functions and their reverses: sound in any rounding mode (they set their own), so they need no
-// kernel form; the reverse of the sine is the part of x whose sine can lie in c.
-Interval sin_rev(const Interval& c, const Interval& x);
-Interval cos_rev(const Interval& c, const Interval& x);
-/// Contracts y and x to the part for which atan2(y, x) can lie in angle; returns false when none is left.
-bool atan2_rev(const Interval& angle, Interval& y, Interval& x);
-
-}  // namespace hcsp

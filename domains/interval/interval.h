@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Closed real intervals in the set-based flavour of IEEE 1788-2015: the sets of reals {x : lo <= x <= hi},
 // bounds possibly infinite, and the empty set. Every function here is sound in any rounding mode of the
-// caller, which is left as found; the engine's inner loops use the kernels of interval_kernel.h under one
+// caller, which is left as found; the engine's inner loops use the kernels of interval/kernel.h under one
 // guard instead.
 #pragma once
 
@@ -53,6 +53,11 @@ class Interval {
   /// in text. "0.1" gives the two doubles around one tenth. Throws std::invalid_argument when text is not a
   /// number.
   static Interval of_decimal(std::string_view text);
+  /// A literal of IEEE 1788-2015, 9.7 and 12.11, without decoration: "[0.1, 2/3]", "[1.5]", "[, 2]",
+  /// "[entire]",
+  /// "[empty]", "3.56?1", "-10?u", "0x1.8p1"; each bound is rounded outwards. Throws std::invalid_argument
+  /// when it is none.
+  static Interval of_text(std::string_view text);
   /// The tightest interval around mantissa * 10^exponent.
   static Interval of_decimal(std::int64_t mantissa, int exponent);
 

@@ -1,25 +1,35 @@
 // SPDX-License-Identifier: Apache-2.0
-// The reverses of sin, cos and atan2: the part of the arguments that can give a value. Built of tightest
+// The reverses of sin, cos, tan and atan2: the part of the arguments that can give a value. Built of tightest
 // point functions and outward rounded operations, all monotone, so that they are inclusion-isotone.
 #include <algorithm>
 #include <cmath>
 
-#include "domains/elementary_point.h"
-#include "domains/interval_kernel.h"
+#include "domains/interval/elementary_point.h"
+#include "domains/interval/kernel.h"
+#include "domains/interval/reverse.h"
 #include "domains/rounding.h"
 
 namespace hcsp {
 
 namespace {
 
-/// The arguments whose sine (or cosine) lies in c, as a union of branches: principal + n pi for even n and
-/// (n + mirror) pi - principal for odd n, each rounded outwards. Beyond kFarthest every argument counts, so
-/// that this is one fixed set for one c, and growing with c: its hull within x is inclusion-isotone in both.
+/// The doubles around a value that is known within 2^-63 relative.
+Interval around(DoubleDouble value) {
+  const double error = 0x1p-63 * std::abs(value.hi);
+  return Interval::raw(value.lo > error ? value.hi : up::next_down(value.hi),
+                       value.lo < -error ? value.hi : up::next_up(value.hi));
+}
+
+/// The arguments of a periodic function whose values lie in c, as a union of branches: [first, last] + n pi
+/// for even n, and for odd n the mirrored m pi - [last, first] with m = n or n + 1, or for the tangent the
+/// same as for even n; each rounded outwards. Beyond kFarthest every argument counts, so that this is one
+/// fixed set for one c, and growing with c: its hull within x is inclusion-isotone in both.
 class Branches {
  public:
-  Branches(const Interval& principal, int mirror) : principal_(principal), mirror_(mirror) {}
+  enum class Odd : std::uint8_t { mirrored_at_n, mirrored_at_next, same };
+  Branches(DoubleDouble first, DoubleDouble last, Odd odd) : first_(first), last_(last), odd_(odd) {}
 
-  /// The hull of the union within x. PRECONDITION: upward rounding.
+  /// The hull of the union within x. PRECONDITION: round to nearest.
   [[nodiscard]] Interval within(const Interval& x) const {
     return meet(x, Interval::raw(first_from(x.lo()), last_to(x.hi())));
   }
@@ -28,17 +38,21 @@ class Branches {
   static constexpr double kFarthest = 0x1p30;  // any value is sound; the branches' numbers must fit an int
 
   [[nodiscard]] Interval branch(int n) const {
-    const bool even = n % 2 == 0;
-    const double turns = even ? n : n + mirror_;
-    const Interval centre = up::mul(Interval::raw(turns, turns), kPiBounds);
-    return even ? up::add(centre, principal_) : up::sub(centre, principal_);
+    const bool mirrored = n % 2 != 0 && odd_ != Odd::same;
+    const DoubleDouble centre = multiply(kPi, mirrored && odd_ == Odd::mirrored_at_next ? n + 1.0 : n);
+    const DoubleDouble lo = mirrored ? negate(last_) : first_, hi = mirrored ? negate(first_) : last_;
+    return Interval::raw(at(centre, lo).lo(), at(centre, hi).hi());
+  }
+
+  // centre + offset, of which the greater comes first; 0 is no approximation.
+  static Interval at(DoubleDouble centre, DoubleDouble offset) {
+    if (centre.hi == 0 && offset.hi == 0) return Interval::raw(0.0, 0.0);
+    return around(centre.hi == 0 ? offset : add(centre, offset));
   }
 
   /// Two less than the number of the branch around x, give or take one: what is before it, or five on, cannot
   /// matter.
-  [[nodiscard]] int number_before(double x) const {
-    return static_cast<int>(std::floor(x / kPiBounds.lo() + 0.5 * (1 - mirror_))) - 2;
-  }
+  static int number_before(double x) { return static_cast<int>(std::floor(x / kPiBounds.lo())) - 2; }
 
   [[nodiscard]] double first_from(double x) const {
     if (!(std::abs(x) <= kFarthest)) return x;
@@ -62,24 +76,19 @@ class Branches {
     return last;
   }
 
-  Interval principal_;
-  int mirror_;
+  DoubleDouble first_, last_;
+  Odd odd_;
 };
 
 Interval wave_rev(const Interval& c, const Interval& x, bool cosine) {
-  RoundUpward upward;
+  RoundNearest guard;
   const Interval range = meet(opaque_bounds(c), kUnit), argument = opaque_bounds(x);
   if (range.is_empty() || argument.is_empty()) return Interval::empty();
   if (range == kUnit) return argument;
-  Interval principal;
-  {
-    RoundNearest nearest;
-    const double lo = opaque(range.lo()), hi = opaque(range.hi());
-    principal = cosine ? Interval::raw(arccosine(hi).lo(), arccosine(lo).hi())
-                       : Interval::raw(arcsine(lo).lo(), arcsine(hi).hi());
-    principal = opaque_bounds(principal);
-  }
-  return opaque_bounds(Branches(principal, cosine ? 1 : 0).within(argument));
+  const Branches branches =
+      cosine ? Branches(arccosine(range.hi()), arccosine(range.lo()), Branches::Odd::mirrored_at_next)
+             : Branches(arcsine(range.lo()), arcsine(range.hi()), Branches::Odd::mirrored_at_n);
+  return opaque_bounds(branches.within(argument));
 }
 
 /// The part of the box (x, y) of the first quadrant at an angle in [lo, hi], as its hull. PRECONDITION:
@@ -128,6 +137,14 @@ void join_quadrant(const Interval& angle, bool left, bool lower, const Interval&
 
 Interval sin_rev(const Interval& c, const Interval& x) { return wave_rev(c, x, false); }
 Interval cos_rev(const Interval& c, const Interval& x) { return wave_rev(c, x, true); }
+
+Interval tan_rev(const Interval& c, const Interval& x) {
+  RoundNearest guard;
+  const Interval range = opaque_bounds(c), argument = opaque_bounds(x);
+  if (range.is_empty() || argument.is_empty()) return Interval::empty();
+  const Branches branches(arctangent(range.lo()), arctangent(range.hi()), Branches::Odd::same);
+  return opaque_bounds(branches.within(argument));
+}
 
 bool atan2_rev(const Interval& angle, Interval& y, Interval& x) {
   RoundUpward guard;

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "domains/interval.h"
+#include "domains/interval/interval.h"
 
 #include <fmt/format.h>
 
 #include "domains/check.h"
-#include "domains/interval_kernel.h"
+#include "domains/interval/kernel.h"
 #include "domains/rounding.h"
 
 namespace hcsp {

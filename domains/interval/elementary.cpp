@@ -4,24 +4,21 @@
 // value (about 2047 times in 2048) they are the tightest bounds, elsewhere MPFR decides. Tightest point
 // enclosures are monotone, which makes every function here inclusion-isotone. No libm function but sqrt,
 // which IEEE 754 specifies exactly, is relied upon.
-#include "domains/elementary_point.h"
+#include "domains/interval/elementary_point.h"
 
 #include <bit>
 #include <cmath>
 #include <cstdint>
 
-#include "domains/double_double.h"
-#include "domains/elementary_tables.h"
-#include "domains/interval_kernel.h"
-#include "domains/mpfr_scope.h"
+#include "domains/interval/double_double.h"
+#include "domains/interval/elementary_tables.h"
+#include "domains/interval/kernel.h"
+#include "domains/interval/mpfr_scope.h"
 #include "domains/rounding.h"
 
 namespace hcsp {
 
 namespace {
-
-constexpr DoubleDouble kPi{0x1.921fb54442d18p+1, 0x1.1a62633145c07p-53};
-constexpr DoubleDouble kHalfPi{0x1.921fb54442d18p+0, 0x1.1a62633145c07p-54};
 
 /// Below this, x^2 / 2 and x^2 / 6 are less than the relative gap between doubles.
 constexpr double kTiny = 0x1p-26;
@@ -49,14 +46,6 @@ Interval doubles_around(Number& number, bool inexact) {
   const double lo = mpfr_get_d(number.get(), MPFR_RNDD);
   if (inexact) mpfr_nextabove(number.get());
   return Interval::raw(lo, mpfr_get_d(number.get(), MPFR_RNDU));
-}
-
-/// The tightest enclosure of a function of MPFR at a point.
-[[gnu::noinline]] Interval by_mpfr(int (*function)(mpfr_ptr, mpfr_srcptr, mpfr_rnd_t), double x) {
-  MpfrScope scope;
-  Number result(mpfr_prec_t{53}), argument(x);
-  const int ternary = function(result.get(), argument.get(), MPFR_RNDD);
-  return doubles_around(result, ternary != 0);
 }
 
 /// The tightest enclosure of sin(x + shift pi/2), and in which quarter turn [q pi/2, (q+1) pi/2) modulo 4 the
@@ -242,23 +231,25 @@ DoubleDouble other_leg(double c) { return square_root(multiply(two_sum(1.0, -c),
 
 }  // namespace
 
-Interval arcsine(double c) {
-  if (c < 0) return -arcsine(-c);
-  if (c == 0) return Interval::raw(0.0, 0.0);
-  if (c == 1) return kHalfPiBounds;
-  if (c <= kTiny) return Interval::raw(c, away_from_zero(c));
-  const Interval around = neighbours(angle_in_upper_half({c, 0.0}, other_leg(c)));
-  if (!around.is_empty()) return around;
-  return by_mpfr(mpfr_asin, c);
+DoubleDouble arcsine(double c) {
+  if (c < 0) return negate(arcsine(-c));
+  if (c <= kTiny) return {c, c * c * c / 6};
+  return c == 1 ? kHalfPi : angle_in_upper_half({c, 0.0}, other_leg(c));
 }
 
-Interval arccosine(double c) {
-  if (c == 1) return Interval::raw(0.0, 0.0);
-  if (c == -1) return kPiBounds;
-  if (std::abs(c) < 0x1p-60) return kHalfPiBounds;  // pi/2 is farther than 2^-54 from its neighbours
-  const Interval around = neighbours(angle_in_upper_half(other_leg(c), {c, 0.0}));
-  if (!around.is_empty()) return around;
-  return by_mpfr(mpfr_acos, c);
+DoubleDouble arccosine(double c) {
+  if (c == 1) return {0.0, 0.0};
+  if (c == -1) return kPi;
+  if (std::abs(c) <= kTiny) return add(kHalfPi, negate(arcsine(c)));
+  return angle_in_upper_half(other_leg(c), {c, 0.0});
+}
+
+DoubleDouble arctangent(double c) {
+  if (c < 0) return negate(arctangent(-c));
+  if (c <= kTiny) return {c, -c * c * c / 3};
+  if (c == kInfinity) return kHalfPi;
+  if (c >= 1 / kTiny) return add(kHalfPi, {-1 / c, 0.0});
+  return angle_in_upper_half({c, 0.0}, {1.0, 0.0});
 }
 
 Interval pi() { return kPiBounds; }

@@ -4,7 +4,7 @@
 
 #include <array>
 
-#include "domains/double_double.h"
+#include "domains/interval/double_double.h"
 
 namespace hcsp {
 
