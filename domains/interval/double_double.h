@@ -11,35 +11,42 @@
 
 namespace hcsp {
 
-struct DoubleDouble {
-  double hi, lo;
+/// T is double, or Bounds for two at once.
+template <class T>
+struct Doubled {
+  T hi, lo;
 };
+using DoubleDouble = Doubled<double>;
 
 /// The exact sum of a and b (Fast2Sum, algorithm 1), for |a| >= |b| or a == 0.
-inline DoubleDouble fast_two_sum(double a, double b) {
-  const double sum = a + b;
+template <class T>
+Doubled<T> fast_two_sum(T a, T b) {
+  const T sum = a + b;
   return {sum, b - (sum - a)};
 }
 
 /// The exact sum of a and b (2Sum, algorithm 2).
-inline DoubleDouble two_sum(double a, double b) {
-  const double sum = a + b;
-  const double of_b = sum - a;
+template <class T>
+Doubled<T> two_sum(T a, T b) {
+  const T sum = a + b;
+  const T of_b = sum - a;
   return {sum, (a - (sum - of_b)) + (b - of_b)};
 }
 
 /// a as the exact sum of two numbers of at most 26 bits (Veltkamp), for |a| < 2^995.
-inline DoubleDouble split(double a) {
+template <class T>
+Doubled<T> split(T a) {
   constexpr double kSplitter = 0x1p27 + 1;
-  const double scaled = kSplitter * a;
-  const double high = scaled - (scaled - a);
+  const T scaled = kSplitter * a;
+  const T high = scaled - (scaled - a);
   return {high, a - high};
 }
 
 /// The exact product of a and b (Dekker), where neither a b overflows nor its error underflows.
-inline DoubleDouble two_product(double a, double b) {
-  const double product = a * b;
-  const DoubleDouble x = split(a), y = split(b);
+template <class T>
+Doubled<T> two_product(T a, T b) {
+  const T product = a * b;
+  const Doubled<T> x = split(a), y = split(b);
   return {product, x.lo * y.lo - (((product - x.hi * y.hi) - x.lo * y.hi) - x.hi * y.lo)};
 }
 

@@ -8,6 +8,7 @@
 
 #include "domains/check.h"
 #include "domains/interval/elementary_point.h"
+#include "domains/interval/exp_log.h"
 #include "domains/interval/kernel.h"
 #include "domains/interval/point_functions.h"
 #include "domains/rounding.h"
@@ -63,11 +64,17 @@ double nearest_even(double x) {
 
 }  // namespace
 
-Interval exp(const Interval& a) { return rising(mpfr_exp, a); }
+Interval exp(const Interval& a) {
+  RoundUpward guard;
+  return opaque_bounds(up::exp(opaque_bounds(a)));
+}
+Interval log(const Interval& a) {
+  RoundUpward guard;
+  return opaque_bounds(up::log(opaque_bounds(a)));
+}
 Interval exp2(const Interval& a) { return rising(mpfr_exp2, a); }
 Interval exp10(const Interval& a) { return rising(mpfr_exp10, a); }
 Interval expm1(const Interval& a) { return rising(mpfr_expm1, a); }
-Interval log(const Interval& a) { return rising_inside(mpfr_log, a, kPositive); }
 Interval log2(const Interval& a) { return rising_inside(mpfr_log2, a, kPositive); }
 Interval log10(const Interval& a) { return rising_inside(mpfr_log10, a, kPositive); }
 Interval log1p(const Interval& a) { return rising_inside(mpfr_log1p, a, Interval::raw(-1.0, kInfinity)); }
