@@ -67,24 +67,27 @@ inline Interval mul(const Interval& a, const Interval& b) {
                greatest(zero_for_nan(by_negated * low), zero_for_nan(by_negated * high))));
 }
 
-/// a / b for b without zero inside its bounds' signs: b > 0 or b < 0, a bound of b possibly 0 or infinite.
+/// a / b for b >= 0 or b <= 0, a bound of b possibly 0, not both: the divisor that gives a quotient's extreme
+/// depends on the sign of the numerator's bound alone. No branch; neither is empty.
+inline Bounds quotient(const Bounds& a, const Bounds& b) {
+  const auto negative = __builtin_shufflevector(b, b, 1, 1) <= 0.0;
+  const Bounds x = negative ? swapped(a) : a, y = negative ? swapped(b) : b;
+  const Bounds near = 0.0 - __builtin_shufflevector(y, y, 0, 0);  // upward, so that a zero is +0
+  return x / (x > 0.0 ? near : __builtin_shufflevector(y, y, 1, 1));
+}
+
 inline Interval div_by_signed(const Interval& a, const Interval& b) {
-  if (b.hi() <= 0) return div_by_signed(-a, -b);
-  // b.lo >= 0: a quotient's extreme divisor depends on the sign of the numerator's bound alone. 0 / 0 is no
-  // value.
-  const double near = std::abs(b.lo());  // a zero bound is +0, whatever its sign was
-  const double lo_by = a.lo() >= 0 ? b.hi() : near;
-  const double hi_by = a.hi() >= 0 ? near : b.hi();
-  const double lo = a.lo() == 0 ? 0.0 : (std::isinf(a.lo()) ? a.lo() : div_down(a.lo(), lo_by));
-  const double hi = a.hi() == 0 ? 0.0 : (std::isinf(a.hi()) ? a.hi() : a.hi() / hi_by);
-  return Interval::raw(lo, hi);
+  return a.is_empty() ? a : Interval::of_bounds(quotient(a.bounds(), b.bounds()));
 }
 
 inline Interval div(const Interval& a, const Interval& b) {
-  if (a.is_empty() || b.is_empty() || (b.lo() == 0 && b.hi() == 0)) return Interval::empty();
-  if (a.lo() == 0 && a.hi() == 0) return a;
-  if (b.lo() >= 0 || b.hi() <= 0) return div_by_signed(a, b);
-  return Interval::entire();
+  const Bounds x = a.bounds(), y = b.bounds();
+  if (is_any_empty(a, b) || both(y == 0.0)) return Interval::empty();
+  if (both(x == 0.0)) return a;
+  const auto positive = y > 0.0;  // both: 0 is inside b
+  return Interval::of_bounds((positive & __builtin_shufflevector(positive, positive, 1, 0)) != 0
+                                 ? Interval::entire().bounds()
+                                 : quotient(x, y));
 }
 
 inline Interval sqr(const Interval& a) {
