@@ -73,7 +73,8 @@ inline Bounds quotient(const Bounds& a, const Bounds& b) {
   const auto negative = __builtin_shufflevector(b, b, 1, 1) <= 0.0;
   const Bounds x = negative ? swapped(a) : a, y = negative ? swapped(b) : b;
   const Bounds near = 0.0 - __builtin_shufflevector(y, y, 0, 0);  // upward, so that a zero is +0
-  return x / (x > 0.0 ? near : __builtin_shufflevector(y, y, 1, 1));
+  const Bounds far = __builtin_shufflevector(y, y, 1, 1);
+  return x / (x > 0.0 ? near : far);
 }
 
 inline Interval div_by_signed(const Interval& a, const Interval& b) {

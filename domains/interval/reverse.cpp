@@ -132,7 +132,8 @@ Interval positive_bases(const Interval& b, const Interval& c, const Interval& x)
   if (b.contains(0.0) && c.contains(1.0)) return x;
   Interval bases = Interval::empty();
   if (b.hi() > 0) bases = meet(quotients(c, std::max(b.lo(), 0.0), b.hi(), true, Root{true}), x);
-  if (b.lo() < 0) bases = join(bases, meet(quotients(c, std::min(b.hi(), 0.0), b.lo(), false, Root{false}), x));
+  if (b.lo() < 0)
+    bases = join(bases, meet(quotients(c, std::min(b.hi(), 0.0), b.lo(), false, Root{false}), x));
   return bases;
 }
 
