@@ -48,7 +48,8 @@ std::array<Interval, 2> mul_rev_to_pair(const Interval& b, const Interval& c) {
 
 Interval pown_rev(const Interval& c, const Interval& x, int n) {
   if (n == 0) return c.contains(1.0) ? x : Interval::empty();
-  if (n == 1) return guarded([](const Interval& power, const Interval& base) { return meet(power, base); }, c, x);
+  if (n == 1)
+    return guarded([](const Interval& power, const Interval& base) { return meet(power, base); }, c, x);
   if (n % 2 == 0) return abs_rev(rootn(c, n), x);
   return guarded(
       [n](const Interval& power, const Interval& base) {
