@@ -40,12 +40,13 @@ double Interval::width() const {
 double Interval::mid() const {
   HCSP_ASSERT(!is_empty());
   if (is_entire()) return 0.0;
-  if (lo() == -kInfinity) return std::min(hi(), 0.0);
-  if (hi() == kInfinity) return std::max(lo(), 0.0);
   RoundNearest guard;
   const double low = opaque(lo()), high = opaque(hi());
-  const double middle = opaque(0.5 * low + 0.5 * high);
-  return std::min(std::max(middle, low), high);
+  if (low == -kInfinity) return opaque(std::min(high, 0.0));
+  if (high == kInfinity) return opaque(std::max(low, 0.0));
+  // One rounding: where the sum is rounded its half is exact, and where the half is rounded the sum is exact.
+  const double sum = low + high, middle = opaque(std::isinf(sum) ? 0.5 * low + 0.5 * high : 0.5 * sum);
+  return opaque(std::min(std::max(middle, low), high));
 }
 
 double Interval::mag() const { return is_empty() ? 0.0 : std::max(std::abs(lo()), std::abs(hi())); }
