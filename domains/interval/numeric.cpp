@@ -19,10 +19,34 @@ constexpr double kLargest = std::numeric_limits<double>::max();
 // Strictly below, or both without bound.
 bool is_inside(double below, double above) { return below < above || (std::isinf(below) && below == above); }
 
+/// Keeps what was found within the guard, as opaque() keeps what is looked at.
+double settled(double x) { return opaque(x); }
+bool settled(bool x) {
+  asm volatile("" : "+r"(x) : : "memory");
+  return x;
+}
+
+Overlap settled(Overlap x) {
+  asm volatile("" : "+r"(x) : : "memory");
+  return x;
+}
+
+/// Runs under round to nearest with gradual underflow: where the caller takes subnormal numbers for 0, even a
+/// comparison would be wrong.
+template <class Body, class... Operands>
+auto guarded(Body body, const Operands&... operands) {
+  RoundNearest guard;
+  return settled(body(Interval::raw(opaque(operands.lo()), opaque(operands.hi()))...));
+}
+
 }  // namespace
 
-double inf(const Interval& a) { return a.lo() == 0 ? -0.0 : a.lo(); }
-double sup(const Interval& a) { return a.hi() == 0 ? 0.0 : a.hi(); }
+double inf(const Interval& a) {
+  return guarded([](const Interval& x) { return x.lo() == 0 ? -0.0 : x.lo(); }, a);
+}
+double sup(const Interval& a) {
+  return guarded([](const Interval& x) { return x.hi() == 0 ? 0.0 : x.hi(); }, a);
+}
 
 double mid(const Interval& a) {
   if (a.is_empty()) return kNaN;
@@ -42,45 +66,81 @@ double rad(const Interval& a) {
   return opaque(std::max(opaque(middle - lo), opaque(hi - middle)));
 }
 
-double mag(const Interval& a) { return a.is_empty() ? kNaN : a.mag(); }
-
-double mig(const Interval& a) {
-  if (a.is_empty()) return kNaN;
-  return a.lo() > 0 ? a.lo() : (a.hi() < 0 ? -a.hi() : 0.0);
+double mag(const Interval& a) {
+  return guarded([](const Interval& x) { return x.is_empty() ? kNaN : x.mag(); }, a);
 }
 
-bool equal(const Interval& a, const Interval& b) { return a == b; }
-bool subset(const Interval& a, const Interval& b) { return leq(a, b); }
+double mig(const Interval& a) {
+  return guarded(
+      [](const Interval& x) {
+        if (x.is_empty()) return kNaN;
+        return x.lo() > 0 ? x.lo() : (x.hi() < 0 ? -x.hi() : 0.0);
+      },
+      a);
+}
+
+bool equal(const Interval& a, const Interval& b) {
+  return guarded([](const Interval& x, const Interval& y) { return x == y; }, a, b);
+}
+
+bool subset(const Interval& a, const Interval& b) {
+  return guarded([](const Interval& x, const Interval& y) { return leq(x, y); }, a, b);
+}
 
 bool interior(const Interval& a, const Interval& b) {
-  return a.is_empty() || (is_inside(b.lo(), a.lo()) && is_inside(a.hi(), b.hi()));
+  return guarded(
+      [](const Interval& x, const Interval& y) {
+        return x.is_empty() || (is_inside(y.lo(), x.lo()) && is_inside(x.hi(), y.hi()));
+      },
+      a, b);
 }
 
 bool less(const Interval& a, const Interval& b) {
-  if (a.is_empty() || b.is_empty()) return a.is_empty() && b.is_empty();
-  return a.lo() <= b.lo() && a.hi() <= b.hi();
+  return guarded(
+      [](const Interval& x, const Interval& y) {
+        if (x.is_empty() || y.is_empty()) return x.is_empty() && y.is_empty();
+        return x.lo() <= y.lo() && x.hi() <= y.hi();
+      },
+      a, b);
 }
 
 bool strict_less(const Interval& a, const Interval& b) {
-  if (a.is_empty() || b.is_empty()) return a.is_empty() && b.is_empty();
-  return is_inside(a.lo(), b.lo()) && is_inside(a.hi(), b.hi());
+  return guarded(
+      [](const Interval& x, const Interval& y) {
+        if (x.is_empty() || y.is_empty()) return x.is_empty() && y.is_empty();
+        return is_inside(x.lo(), y.lo()) && is_inside(x.hi(), y.hi());
+      },
+      a, b);
 }
 
 bool precedes(const Interval& a, const Interval& b) {
-  return a.is_empty() || b.is_empty() || a.hi() <= b.lo();
+  return guarded(
+      [](const Interval& x, const Interval& y) { return x.is_empty() || y.is_empty() || x.hi() <= y.lo(); },
+      a, b);
 }
 
 bool strict_precedes(const Interval& a, const Interval& b) {
-  return a.is_empty() || b.is_empty() || a.hi() < b.lo();
+  return guarded(
+      [](const Interval& x, const Interval& y) { return x.is_empty() || y.is_empty() || x.hi() < y.lo(); }, a,
+      b);
 }
 
-bool disjoint(const Interval& a, const Interval& b) { return meet(a, b).is_empty(); }
-bool is_member(double x, const Interval& a) { return std::isfinite(x) && a.contains(x); }
+bool disjoint(const Interval& a, const Interval& b) {
+  return guarded([](const Interval& x, const Interval& y) { return meet(x, y).is_empty(); }, a, b);
+}
+
+bool is_member(double x, const Interval& a) {
+  if (!std::isfinite(x)) return false;
+  return guarded([](const Interval& point, const Interval& y) { return y.contains(point.lo()); },
+                 Interval::raw(x, x), a);
+}
+
 bool is_common(const Interval& a) { return !a.is_empty() && a.is_bounded(); }
 
-Overlap overlap(const Interval& a, const Interval& b) {
-  if (a.is_empty()) return b.is_empty() ? Overlap::both_empty : Overlap::first_empty;
-  if (b.is_empty()) return Overlap::second_empty;
+namespace {
+
+/// Of two that are not empty.
+Overlap position(const Interval& a, const Interval& b) {
   if (a.hi() < b.lo()) return Overlap::before;
   if (b.hi() < a.lo()) return Overlap::after;
   if (a == b) return Overlap::equals;
@@ -90,6 +150,14 @@ Overlap overlap(const Interval& a, const Interval& b) {
   if (b.hi() == a.lo()) return Overlap::met_by;
   if (a.lo() < b.lo()) return a.hi() < b.hi() ? Overlap::overlaps : Overlap::contains;
   return a.hi() < b.hi() ? Overlap::contained_by : Overlap::overlapped_by;
+}
+
+}  // namespace
+
+Overlap overlap(const Interval& a, const Interval& b) {
+  if (a.is_empty()) return b.is_empty() ? Overlap::both_empty : Overlap::first_empty;
+  if (b.is_empty()) return Overlap::second_empty;
+  return guarded(position, a, b);
 }
 
 // ---- Reductions: exactly, in a number of MPFR that holds any sum of products of doubles, then rounded.

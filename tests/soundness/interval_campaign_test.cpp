@@ -33,7 +33,9 @@ struct Caller {
   int mode;
   bool flush;
 };
-Caller caller_number(std::uint64_t k) { return {oracle::kRoundingModes[k % 4], k / 4 % 2 == 1}; }
+Caller caller_number(std::uint64_t k, const Operation& operation) {
+  return {oracle::kRoundingModes[k % 4], k / 4 % 2 == 1 && operation.flushes};
+}
 
 std::vector<Case> draw_cases(Source& source, std::size_t count, Draw& draw) {
   std::vector<Case> cases;
@@ -119,7 +121,7 @@ void run_variant(const Operation& operation, std::size_t variant, std::uint64_t 
   std::vector<Outcome> outcomes;
   for (std::uint64_t done = 0, batch = 0; done < count; done += kBatch, ++batch) {
     const std::vector<Case> cases = draw_cases(*source, std::min<std::uint64_t>(kBatch, count - done), draw);
-    const Caller caller = caller_number(batch);
+    const Caller caller = caller_number(batch, operation);
     EXPECT_TRUE(run(operation, variant, cases, caller, outcomes)) << "environment, mode " << caller.mode;
     check(operation, variant, cases, outcomes, caller);
     if (::testing::Test::HasFailure()) return;
@@ -165,7 +167,8 @@ int differences(const std::vector<Recorded>& records, const Caller& caller, bool
   std::vector<Outcome> outcomes;
   for (std::size_t k = 0; k < records.size(); ++k) {
     const Recorded& record = records[backwards ? records.size() - 1 - k : k];
-    if (!run(*record.operation, 0, record.cases, caller, outcomes)) ++count;
+    const Caller own{caller.mode, caller.flush && record.operation->flushes};
+    if (!run(*record.operation, 0, record.cases, own, outcomes)) ++count;
     for (std::size_t i = 0; i < outcomes.size(); ++i) {
       const Outcome &found = outcomes[i], &expected = record.outcomes[i];
       if (!same_bits(found[0], expected[0]) || !same_bits(found[1], expected[1])) ++count;
@@ -181,8 +184,8 @@ TEST(IntervalCampaign, TwoThreadsAtOnceGiveTheSameBits) {
     Draw draw(kSeed);
     const auto source = operation.source(draw, 0);
     Recorded record{&operation, draw_cases(*source, count, draw), {}};
-    ASSERT_TRUE(run(operation, 0, record.cases, caller_number(0), record.outcomes));
-    check(operation, 0, record.cases, record.outcomes, caller_number(0));
+    ASSERT_TRUE(run(operation, 0, record.cases, caller_number(0, operation), record.outcomes));
+    check(operation, 0, record.cases, record.outcomes, caller_number(0, operation));
     records.push_back(std::move(record));
   }
   int up = -1, down = -1;

@@ -421,6 +421,7 @@ const std::vector<Operation>& operations() {
     result.push_back(by_exponent("rootn", rootn, kRoots, root));
     add_surfaces(result);
     add_reverses(result);
+    add_numbers(result);
     return result;
   }();
   return all;

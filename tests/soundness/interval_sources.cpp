@@ -204,11 +204,9 @@ class ReverseSource final : public Source {
 
 // ---- Case by case.
 
-constexpr std::size_t kNumbers = 20000;
-
 class DirectSource final : public Source {
  public:
-  DirectSource(const Direct& f, Draw& draw) : f_(f), pool_(kNumbers, f.focus, draw) {}
+  DirectSource(const Direct& f, Draw& draw) : f_(f), pool_(f.numbers, f.focus, draw) {}
 
   Case next(Draw& draw) override {
     Case result;
@@ -233,7 +231,7 @@ class DirectSource final : public Source {
 class DirectReverseSource final : public Source {
  public:
   DirectReverseSource(At2 f, bool with_x, Draw& draw)
-      : f_(std::move(f)), with_x_(with_x), pool_(kNumbers, {}, draw) {}
+      : f_(std::move(f)), with_x_(with_x), pool_(20000, {}, draw) {}
 
   Case next(Draw& draw) override {
     const Span b = pool_.span(draw), x = with_x_ ? pool_.span(draw) : Span{0, pool_.size() - 1};

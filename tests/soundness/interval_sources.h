@@ -66,10 +66,15 @@ struct Operation {
   std::size_t variants;
   std::function<Outcome(const Arguments&, std::size_t variant)> apply;
   std::function<std::unique_ptr<Source>(Draw&, std::size_t variant)> source;
+  /// Whether it withstands a caller that flushes subnormal numbers: all but the lattice's comparisons in
+  /// line.
+  bool flushes = true;
 };
 
 /// Every operation of the campaign.
 const std::vector<Operation>& operations();
+/// Those that give numbers or truth values, and the lattice's.
+void add_numbers(std::vector<Operation>& all);
 
 /// The value of a point function, in both roundings.
 using At = std::function<Bracket(double)>;
@@ -101,6 +106,7 @@ struct Direct {
   /// Of a point; not called where empty.
   At3 at;
   Focus focus;
+  std::size_t numbers = 20000;
 };
 std::unique_ptr<Source> direct_source(const Direct& f, Draw& draw);
 /// Arguments b, c, x with f(x0, b0) in c for an x0 in x and b0 in b; without x, for an operation that takes
