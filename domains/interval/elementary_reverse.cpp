@@ -4,7 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "domains/interval/elementary_point.h"
+#include "domains/interval/arcs.h"
+#include "domains/interval/guarded.h"
 #include "domains/interval/kernel.h"
 #include "domains/interval/reverse.h"
 #include "domains/rounding.h"

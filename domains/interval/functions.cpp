@@ -7,11 +7,13 @@
 #include <cmath>
 
 #include "domains/check.h"
-#include "domains/interval/elementary_point.h"
+#include "domains/interval/arcs.h"
+#include "domains/interval/atan2.h"
 #include "domains/interval/exp_log.h"
+#include "domains/interval/guarded.h"
 #include "domains/interval/kernel.h"
 #include "domains/interval/point_functions.h"
-#include "domains/rounding.h"
+#include "domains/interval/pown.h"
 
 namespace hcsp {
 
@@ -19,17 +21,9 @@ namespace {
 
 const Interval kPositive = Interval::raw(0.0, kInfinity);
 
-/// Runs under round to nearest with gradual underflow, whatever the caller has set: comparisons count, too.
-template <class Body, class... Operands>
-Interval guarded(Body body, const Operands&... operands) {
-  RoundNearest guard;
-  MpfrScope scope;
-  return opaque_bounds(body(opaque_bounds(operands)...));
-}
-
 /// The image of a non-decreasing function of MPFR on the part of a in its domain.
 Interval rising(Function f, const Interval& a, const Interval& domain = {}) {
-  return guarded(
+  return exactly(
       [&](const Interval& whole) {
         const Interval x = meet(whole, domain);
         if (x.is_empty()) return x;
@@ -40,7 +34,7 @@ Interval rising(Function f, const Interval& a, const Interval& domain = {}) {
 
 /// On a domain that is open, with infinite limits at its finite ends.
 Interval rising_inside(Function f, const Interval& a, const Interval& domain) {
-  return guarded(
+  return exactly(
       [&](const Interval& x) {
         if (x.hi() <= domain.lo() || x.lo() >= domain.hi()) return Interval::empty();
         return rising(f, x, domain);
@@ -50,7 +44,7 @@ Interval rising_inside(Function f, const Interval& a, const Interval& domain) {
 
 template <class Step>
 Interval steps(const Interval& a, Step step) {
-  return guarded(
+  return exactly(
       [&](const Interval& x) { return x.is_empty() ? x : Interval::raw(step(x.lo()), step(x.hi())); }, a);
 }
 
@@ -64,14 +58,8 @@ double nearest_even(double x) {
 
 }  // namespace
 
-Interval exp(const Interval& a) {
-  RoundUpward guard;
-  return opaque_bounds(up::exp(opaque_bounds(a)));
-}
-Interval log(const Interval& a) {
-  RoundUpward guard;
-  return opaque_bounds(up::log(opaque_bounds(a)));
-}
+Interval exp(const Interval& a) { return upward(up::exp, a); }
+Interval log(const Interval& a) { return upward(up::log, a); }
 Interval exp2(const Interval& a) { return rising(mpfr_exp2, a); }
 Interval exp10(const Interval& a) { return rising(mpfr_exp10, a); }
 Interval expm1(const Interval& a) { return rising(mpfr_expm1, a); }
@@ -80,7 +68,7 @@ Interval log10(const Interval& a) { return rising_inside(mpfr_log10, a, kPositiv
 Interval log1p(const Interval& a) { return rising_inside(mpfr_log1p, a, Interval::raw(-1.0, kInfinity)); }
 Interval asin(const Interval& a) { return rising(mpfr_asin, a, kUnit); }
 Interval acos(const Interval& a) {
-  return guarded(
+  return exactly(
       [](const Interval& whole) {
         const Interval x = meet(whole, kUnit);
         if (x.is_empty()) return x;
@@ -88,7 +76,7 @@ Interval acos(const Interval& a) {
       },
       a);
 }
-Interval atan(const Interval& a) { return rising(mpfr_atan, a); }
+Interval atan(const Interval& a) { return upward(up::atan, a); }
 Interval sinh(const Interval& a) { return rising(mpfr_sinh, a); }
 Interval cosh(const Interval& a) { return rising(mpfr_cosh, abs(a)); }
 Interval tanh(const Interval& a) { return rising(mpfr_tanh, a); }
@@ -138,7 +126,7 @@ bool on_one_branch(const Interval& a) {
 }  // namespace
 
 Interval tan(const Interval& a) {
-  return guarded(
+  return exactly(
       [](const Interval& x) {
         if (x.is_empty()) return x;
         if (!on_one_branch(x)) return Interval::entire();
@@ -167,68 +155,23 @@ double greatest_fma(const Interval& a, const Interval& b, double c) {
 }  // namespace
 
 Interval fma(const Interval& a, const Interval& b, const Interval& c) {
-  RoundUpward guard;
-  const Interval x = opaque_bounds(a), y = opaque_bounds(b), z = opaque_bounds(c);
-  if (x.is_empty() || y.is_empty() || z.is_empty()) return Interval::empty();
-  return opaque_bounds(Interval::raw(-greatest_fma(-x, y, -z.lo()), greatest_fma(x, y, z.hi())));
+  return upward(
+      [](const Interval& x, const Interval& y, const Interval& z) {
+        if (x.is_empty() || y.is_empty() || z.is_empty()) return Interval::empty();
+        return Interval::raw(-greatest_fma(-x, y, -z.lo()), greatest_fma(x, y, z.hi()));
+      },
+      a, b, c);
 }
 
 // ---- Powers and roots.
 
-namespace {
-
-/// x^n rounded, for n != 0 and x >= 0 where n is even; 0 to a negative power is +oo.
-double power(double x, int n, mpfr_rnd_t direction) {
-  if (x == 0 && n < 0) return kInfinity;
-  Number base(x), result(mpfr_prec_t{53});
-  mpfr_pow_si(result.get(), base.get(), n, direction);
-  return mpfr_get_d(result.get(), direction);
-}
-
-/// The real |n|-th root of x, its reciprocal for n < 0.
-double root_of(double x, int n, mpfr_rnd_t direction) {
-  if (x == 0 && n < 0) return kInfinity;
-  Number argument(x), result(mpfr_prec_t{53});
-  mpfr_rootn_si(result.get(), argument.get(), n, direction);
-  return mpfr_get_d(result.get(), direction);
-}
-
-/// The image of x -> f(x, n), a power or a root, on a part of x >= 0 where f is monotone.
-using Monomial = double (*)(double, int, mpfr_rnd_t);
-
-Interval on_positive(Monomial f, const Interval& a, int n) {
-  if (a.is_empty() || (n < 0 && a.hi() == 0)) return Interval::empty();
-  const bool falls = n < 0;
-  return Interval::raw(f(falls ? a.hi() : a.lo(), n, MPFR_RNDD), f(falls ? a.lo() : a.hi(), n, MPFR_RNDU));
-}
-
-/// An odd function on both sides of 0.
-Interval odd(Monomial f, const Interval& a, int n) {
-  return join(on_positive(f, meet(a, kPositive), n), -on_positive(f, meet(-a, kPositive), n));
-}
-
-}  // namespace
-
 Interval pown(const Interval& a, int n) {
-  if (n == 1) return a;
-  if (n == 2) return sqr(a);
-  return guarded(
-      [n](const Interval& x) {
-        if (x.is_empty()) return x;
-        if (n == 0) return Interval::raw(1.0, 1.0);
-        return n % 2 == 0 ? on_positive(power, up::abs(x), n) : odd(power, x, n);
-      },
-      a);
+  return upward([n](const Interval& x) { return up::pown(x, n); }, a);
 }
 
 Interval rootn(const Interval& a, int n) {
   require(n != 0, "rootn: there is no root of order 0");
-  if (n == 1) return a;
-  return guarded(
-      [n](const Interval& x) {
-        return n % 2 == 0 ? on_positive(root_of, meet(x, kPositive), n) : odd(root_of, x, n);
-      },
-      a);
+  return upward([n](const Interval& x) { return up::rootn(x, n); }, a);
 }
 
 namespace {
@@ -245,7 +188,7 @@ double power_at(double x, double y, mpfr_rnd_t direction) {
 
 // y log x is a product, so its extremes are at the corners of the box.
 Interval pow(const Interval& a, const Interval& b) {
-  return guarded(
+  return exactly(
       [](const Interval& whole, const Interval& y) {
         const Interval x = meet(whole, kPositive);
         if (x.is_empty() || y.is_empty()) return Interval::empty();
@@ -282,7 +225,7 @@ bool is_unbounded(const Interval& a) { return !a.is_empty() && !a.is_bounded(); 
 }  // namespace
 
 Interval cancel_minus(const Interval& a, const Interval& b) {
-  return guarded(
+  return exactly(
       [](const Interval& x, const Interval& y) {
         if (is_unbounded(x) || is_unbounded(y)) return Interval::entire();
         if (x.is_empty()) return x;

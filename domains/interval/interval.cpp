@@ -4,24 +4,13 @@
 #include <fmt/format.h>
 
 #include "domains/check.h"
+#include "domains/interval/arcs.h"
+#include "domains/interval/atan2.h"
+#include "domains/interval/guarded.h"
 #include "domains/interval/kernel.h"
-#include "domains/rounding.h"
+#include "domains/interval/sin_cos.h"
 
 namespace hcsp {
-
-namespace {
-
-// Applies a kernel under upward rounding. The operands enter, and the result leaves, through opaque(), so
-// that no operation can be scheduled outside the guard's lifetime.
-Interval fenced(const Interval& a) { return Interval::raw(opaque(a.lo()), opaque(a.hi())); }
-
-template <class Kernel, class... Operands>
-Interval guarded(Kernel kernel, const Operands&... operands) {
-  RoundUpward guard;
-  return fenced(kernel(fenced(operands)...));
-}
-
-}  // namespace
 
 Interval::Interval(double x) : bounds_{-x, x} {
   require(std::isfinite(x), "Interval: a point must be finite, not {}", x);
@@ -51,15 +40,19 @@ double Interval::mid() const {
 
 double Interval::mag() const { return is_empty() ? 0.0 : std::max(std::abs(lo()), std::abs(hi())); }
 
-Interval operator+(const Interval& a, const Interval& b) { return guarded(up::add, a, b); }
-Interval operator-(const Interval& a, const Interval& b) { return guarded(up::sub, a, b); }
-Interval operator*(const Interval& a, const Interval& b) { return guarded(up::mul, a, b); }
-Interval operator/(const Interval& a, const Interval& b) { return guarded(up::div, a, b); }
-Interval sqr(const Interval& a) { return guarded(up::sqr, a); }
-Interval sqrt(const Interval& a) { return guarded(up::sqrt, a); }
-Interval abs(const Interval& a) { return guarded(up::abs, a); }
-Interval min(const Interval& a, const Interval& b) { return guarded(up::min, a, b); }
-Interval max(const Interval& a, const Interval& b) { return guarded(up::max, a, b); }
+Interval operator+(const Interval& a, const Interval& b) { return upward(up::add, a, b); }
+Interval operator-(const Interval& a, const Interval& b) { return upward(up::sub, a, b); }
+Interval operator*(const Interval& a, const Interval& b) { return upward(up::mul, a, b); }
+Interval operator/(const Interval& a, const Interval& b) { return upward(up::div, a, b); }
+Interval sqr(const Interval& a) { return upward(up::sqr, a); }
+Interval sqrt(const Interval& a) { return upward(up::sqrt, a); }
+Interval abs(const Interval& a) { return upward(up::abs, a); }
+Interval min(const Interval& a, const Interval& b) { return upward(up::min, a, b); }
+Interval max(const Interval& a, const Interval& b) { return upward(up::max, a, b); }
+Interval sin(const Interval& a) { return upward(up::sin, a); }
+Interval cos(const Interval& a) { return upward(up::cos, a); }
+Interval atan2(const Interval& y, const Interval& x) { return upward(up::atan2, y, x); }
+Interval pi() { return kPiBounds; }
 
 std::string to_string(const Interval& a) {
   return a.is_empty() ? "[empty]" : fmt::format("[{}, {}]", a.lo(), a.hi());

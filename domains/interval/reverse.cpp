@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "domains/interval/elementary_point.h"
 #include "domains/interval/functions.h"
+#include "domains/interval/guarded.h"
 #include "domains/interval/kernel.h"
 #include "domains/interval/point_functions.h"
 #include "domains/rounding.h"
@@ -17,21 +17,14 @@ namespace {
 
 const Interval kPositive = Interval::raw(0.0, kInfinity);
 
-/// Runs a kernel under upward rounding.
-template <class Kernel, class... Operands>
-Interval guarded(Kernel kernel, const Operands&... operands) {
-  RoundUpward guard;
-  return opaque_bounds(kernel(opaque_bounds(operands)...));
-}
-
 }  // namespace
 
-Interval sqr_rev(const Interval& c, const Interval& x) { return guarded(up::sqr_rev, c, x); }
-Interval abs_rev(const Interval& c, const Interval& x) { return guarded(up::abs_rev, c, x); }
+Interval sqr_rev(const Interval& c, const Interval& x) { return upward(up::sqr_rev, c, x); }
+Interval abs_rev(const Interval& c, const Interval& x) { return upward(up::abs_rev, c, x); }
 Interval cosh_rev(const Interval& c, const Interval& x) { return abs_rev(acosh(c), x); }
 
 Interval mul_rev(const Interval& b, const Interval& c, const Interval& x) {
-  return guarded(up::mul_rev, b, c, x);
+  return upward(up::mul_rev, b, c, x);
 }
 
 std::array<Interval, 2> mul_rev_to_pair(const Interval& b, const Interval& c) {
@@ -49,9 +42,9 @@ std::array<Interval, 2> mul_rev_to_pair(const Interval& b, const Interval& c) {
 Interval pown_rev(const Interval& c, const Interval& x, int n) {
   if (n == 0) return c.contains(1.0) ? x : Interval::empty();
   if (n == 1)
-    return guarded([](const Interval& power, const Interval& base) { return meet(power, base); }, c, x);
+    return upward([](const Interval& power, const Interval& base) { return meet(power, base); }, c, x);
   if (n % 2 == 0) return abs_rev(rootn(c, n), x);
-  return guarded(
+  return upward(
       [n](const Interval& power, const Interval& base) {
         const Interval above = rootn(meet(power, kPositive), n), below = rootn(meet(-power, kPositive), n);
         return join(meet(above, base), meet(-below, base));

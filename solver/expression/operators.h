@@ -12,8 +12,10 @@
 #include <string_view>
 #include <type_traits>
 
+#include "domains/interval/atan2.h"
 #include "domains/interval/kernel.h"
 #include "domains/interval/reverse.h"
+#include "domains/interval/sin_cos.h"
 #include "solver/expression/dag.h"
 
 namespace hcsp {
@@ -117,18 +119,18 @@ struct Max : Boundwise {
 };
 
 struct Sin : Total {
-  static I forward(const I& a, const I&, const I&) { return hcsp::sin(a); }
+  static I forward(const I& a, const I&, const I&) { return up::sin(a); }
   static void backward(const I& y, I& a, I&, I&) { a = sin_rev(y, a); }
 };
 
 struct Cos : Total {
-  static I forward(const I& a, const I&, const I&) { return hcsp::cos(a); }
+  static I forward(const I& a, const I&, const I&) { return up::cos(a); }
   static void backward(const I& y, I& a, I&, I&) { a = cos_rev(y, a); }
 };
 
 struct Atan2 {
   static bool defined(const I& y, const I& x, const I&) { return !(y.contains(0.0) && x.contains(0.0)); }
-  static I forward(const I& y, const I& x, const I&) { return hcsp::atan2(y, x); }
+  static I forward(const I& y, const I& x, const I&) { return up::atan2(y, x); }
   static void backward(const I& angle, I& y, I& x, I&) {
     if (!atan2_rev(angle, y, x)) y = x = I::empty();
   }

@@ -4,7 +4,6 @@
 
 #include "domains/interval/double_double.h"
 #include "domains/interval/interval.h"
-#include "domains/rounding.h"
 
 namespace hcsp {
 
@@ -13,9 +12,6 @@ inline constexpr DoubleDouble kHalfPi{0x1.921fb54442d18p+0, 0x1.1a62633145c07p-5
 inline constexpr Interval kPiBounds = Interval::raw(0x1.921fb54442d18p+1, 0x1.921fb54442d19p+1);
 inline constexpr Interval kHalfPiBounds = Interval::raw(0x1.921fb54442d18p+0, 0x1.921fb54442d19p+0);
 inline constexpr Interval kUnit = Interval::raw(-1.0, 1.0);
-
-/// Keeps the operations on a's bounds on this side of a rounding guard.
-inline Interval opaque_bounds(const Interval& a) { return Interval::raw(opaque(a.lo()), opaque(a.hi())); }
 
 /// asin c and acos c for |c| <= 1, and atan c for any c or infinity, within 2^-64 relative. PRECONDITION:
 /// round to nearest.

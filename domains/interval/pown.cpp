@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: Apache-2.0
+// Integer powers of both bounds at once (lanes.h), and roots.
+#include "domains/interval/pown.h"
+
+#include "domains/interval/kernel.h"
+#include "domains/interval/lanes.h"
+
+namespace hcsp::up {
+
+namespace {
+
+const Interval kPositive = Interval::raw(0.0, kInfinity);
+
+/// x^n rounded, for n != 0 and x >= 0 where n is even; 0 to a negative power is +oo.
+double power(double x, int n, mpfr_rnd_t direction) {
+  if (x == 0 && n < 0) return kInfinity;
+  Number base(x), result(mpfr_prec_t{53});
+  mpfr_pow_si(result.get(), base.get(), n, direction);
+  return mpfr_get_d(result.get(), direction);
+}
+
+/// The real |n|-th root of x, its reciprocal for n < 0.
+double root_of(double x, int n, mpfr_rnd_t direction) {
+  if (x == 0 && n < 0) return kInfinity;
+  Number argument(x), result(mpfr_prec_t{53});
+  mpfr_rootn_si(result.get(), argument.get(), n, direction);
+  return mpfr_get_d(result.get(), direction);
+}
+
+/// The image of x -> f(x, n), a power or a root, on a part of x >= 0 where f is monotone.
+using Monomial = double (*)(double, int, mpfr_rnd_t);
+
+Interval on_positive(Monomial f, const Interval& a, int n) {
+  if (a.is_empty() || (n < 0 && a.hi() == 0)) return Interval::empty();
+  const bool falls = n < 0;
+  return Interval::raw(f(falls ? a.hi() : a.lo(), n, MPFR_RNDD), f(falls ? a.lo() : a.hi(), n, MPFR_RNDU));
+}
+
+/// An odd function on both sides of 0.
+Interval odd(Monomial f, const Interval& a, int n) {
+  return join(on_positive(f, meet(a, kPositive), n), -on_positive(f, meet(-a, kPositive), n));
+}
+
+Interval power_by_mpfr(const Interval& a, int n) {
+  const auto image = [n](const Interval& x) {
+    return n % 2 == 0 ? on_positive(power, up::abs(x), n) : odd(power, x, n);
+  };
+  return exactly(image, a);
+}
+
+constexpr int kMostFactors = 8;
+
+/// Lane by lane x^n, and -x^n where sign tells so, by n - 1 products: the upper halves of the factors
+/// multiply exactly, so that a product errs by 2^-103 at most, relative to it.
+Pair power_of(const Bounds& x, int n, const Words& sign) {
+  const Bounds x_upper = upper_bits(x), x_rest = x - x_upper;
+  Pair power{flipped(x, sign), Bounds{}};
+  for (int i = 1; i < n; ++i) {
+    const Bounds upper = upper_bits(power.hi), rest = power.hi - upper, product = power.hi * x;
+    const Bounds error = ((upper * x_upper - product) + upper * x_rest + rest * x_upper) + rest * x_rest;
+    power = {product, error + power.lo * x};
+  }
+  return power;
+}
+
+/// Where x has but 53 / (n - 1) bits: all products but the last are exact, and that one is rounded once. Any
+/// number with an n-th power that is a double is so short.
+Words is_short(const Bounds& x, int n) {
+  const std::int64_t rest = (std::int64_t{1} << (53 - 53 / (n - 1))) - 1;
+  return (words(x) & rest) == 0;
+}
+
+/// Where neither the power nor its error overflows or underflows; 0 and infinities are their own powers.
+Words is_moderate(const Bounds& x, int n) {
+  const double most = std::bit_cast<double>(std::int64_t{1023 + 900 / n} << 52);
+  const Bounds size = magnitude(x);
+  return ((size >= 1 / most) & (size <= most)) | (size == 0.0) | (size == kInfinity);
+}
+
+}  // namespace
+
+// Of an odd power both bounds (-lo, hi) are powers of bounds (-lo, hi), rounded upward; of an even one they
+// are minus a power of the least and a power of the greatest magnitude.
+Interval pown(const Interval& a, int n) {
+  if (a.is_empty() || n == 1) return a;
+  if (n == 0) return Interval::raw(1.0, 1.0);
+  if (n == 2) return up::sqr(a);
+  if (n == 3) return cube(a);
+  if (n < 0 || n > kMostFactors) return power_by_mpfr(a, n);
+  const bool even = n % 2 == 0;
+  const Interval size = up::abs(a);
+  const Bounds x = even ? Bounds{size.lo(), size.hi()} : a.bounds();
+  const Pair power = power_of(x, n, even ? Words{INT64_MIN, 0} : Words{});
+  const Words is_rounded_once = is_short(x, n);
+  const Neighbours ends(fast_two_sum(power.hi, power.lo), 0x1p-90);
+  if (!both(is_moderate(x, n) & (is_rounded_once | ends.sure))) return power_by_mpfr(a, n);
+  return Interval::of_bounds(is_rounded_once ? power.hi : ends.above);
+}
+
+// With x = u + r, u of 26 bits, and u^2 = s = v + w, v of 26 bits: x^3 is v u, exactly, and w u + s r + x r
+// (u + x), below 2^-23 of it, in double with roundings that come to 2^-73. Where r is 0 nothing but the sum
+// is rounded; where it is not, the sums with the least and the most that the rest can be must be one double.
+Interval cube(const Interval& a) {
+  const Bounds x = a.bounds(), u = upper_bits(x), r = x - u, s = u * u, v = upper_bits(s);
+  const Bounds main = v * u, rest = (s - v) * u + s * r + x * (r * (u + x));
+  const Bounds size = magnitude(main), error = 0x1p-71 * size;
+  const Bounds result = main + rest;
+  const Words is_sure = (r == 0.0) | (main + (rest - error) == main + (rest + error));
+  const Words is_moderate = (size > 0x1p-900) & (size < 0x1p900);
+  if (both((is_moderate & is_sure) | (x == 0.0))) return Interval::of_bounds(result);
+  return a.is_empty() ? a : power_by_mpfr(a, 3);
+}
+
+Interval rootn(const Interval& a, int n) {
+  if (n == 1) return a;
+  const auto image = [n](const Interval& x) {
+    return n % 2 == 0 ? on_positive(root_of, meet(x, kPositive), n) : odd(root_of, x, n);
+  };
+  return exactly(image, a);
+}
+
+}  // namespace hcsp::up
