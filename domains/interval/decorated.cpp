@@ -35,7 +35,11 @@ DecoratedInterval smooth(const Interval& result, bool defined, const Operands&..
   return decorate(result, local(defined, true), operands...);
 }
 
-bool has_zero(const DecoratedInterval& a) { return a.interval().contains(0.0); }
+// What is asked of bounds goes through the comparisons of numeric.h, which see subnormal numbers even where
+// the caller flushes them. All hold of the empty set, save the first.
+bool has_zero(const DecoratedInterval& a) { return is_member(0.0, a.interval()); }
+bool is_above(const DecoratedInterval& a, double x) { return strict_precedes(x, a.interval()); }
+bool is_nowhere_negative(const DecoratedInterval& a) { return precedes(0.0, a.interval()); }
 
 /// A step function is continuous on a box where it is constant, and at each point of it where it is constant
 /// around the box, too.
@@ -80,27 +84,27 @@ D operator*(const D& a, const D& b) { return smooth(a.interval() * b.interval(),
 D operator/(const D& a, const D& b) { return smooth(a.interval() / b.interval(), !has_zero(b), a, b); }
 D recip(const D& a) { return smooth(recip(a.interval()), !has_zero(a), a); }
 D sqr(const D& a) { return smooth(sqr(a.interval()), true, a); }
-D sqrt(const D& a) { return smooth(sqrt(a.interval()), a.interval().lo() >= 0, a); }
+D sqrt(const D& a) { return smooth(sqrt(a.interval()), is_nowhere_negative(a), a); }
 D fma(const D& a, const D& b, const D& c) {
   return smooth(fma(a.interval(), b.interval(), c.interval()), true, a, b, c);
 }
 D pown(const D& a, int n) { return smooth(pown(a.interval(), n), n >= 0 || !has_zero(a), a); }
 D pow(const D& a, const D& b) {
-  const double x = a.interval().lo(), y = b.interval().lo();
-  return smooth(pow(a.interval(), b.interval()), x > 0 || (x == 0 && y > 0), a, b);
+  const bool defined = is_above(a, 0.0) || (is_nowhere_negative(a) && is_above(b, 0.0));
+  return smooth(pow(a.interval(), b.interval()), defined, a, b);
 }
 D rootn(const D& a, int n) {
-  const bool has_root = n % 2 != 0 || a.interval().lo() >= 0;
+  const bool has_root = n % 2 != 0 || is_nowhere_negative(a);
   return smooth(rootn(a.interval(), n), has_root && (n > 0 || !has_zero(a)), a);
 }
 D exp(const D& a) { return smooth(exp(a.interval()), true, a); }
 D exp2(const D& a) { return smooth(exp2(a.interval()), true, a); }
 D exp10(const D& a) { return smooth(exp10(a.interval()), true, a); }
 D expm1(const D& a) { return smooth(expm1(a.interval()), true, a); }
-D log(const D& a) { return smooth(log(a.interval()), a.interval().lo() > 0, a); }
-D log2(const D& a) { return smooth(log2(a.interval()), a.interval().lo() > 0, a); }
-D log10(const D& a) { return smooth(log10(a.interval()), a.interval().lo() > 0, a); }
-D log1p(const D& a) { return smooth(log1p(a.interval()), a.interval().lo() > -1, a); }
+D log(const D& a) { return smooth(log(a.interval()), is_above(a, 0.0), a); }
+D log2(const D& a) { return smooth(log2(a.interval()), is_above(a, 0.0), a); }
+D log10(const D& a) { return smooth(log10(a.interval()), is_above(a, 0.0), a); }
+D log1p(const D& a) { return smooth(log1p(a.interval()), is_above(a, -1.0), a); }
 D sin(const D& a) { return smooth(sin(a.interval()), true, a); }
 D cos(const D& a) { return smooth(cos(a.interval()), true, a); }
 D tan(const D& a) {
@@ -113,8 +117,8 @@ D atan(const D& a) { return smooth(atan(a.interval()), true, a); }
 // The angle jumps across the negative half of the x axis, where it is that of the points above: on the axis
 // alone, and above it, it is continuous.
 D atan2(const D& y, const D& x) {
-  const bool touches_cut = has_zero(y) && x.interval().lo() < 0;
-  const bool crosses_cut = touches_cut && y.interval().lo() < 0;
+  const bool touches_cut = has_zero(y) && !is_nowhere_negative(x);
+  const bool crosses_cut = touches_cut && !is_nowhere_negative(y);
   const Decoration holds = crosses_cut ? Decoration::def : (touches_cut ? Decoration::dac : Decoration::com);
   const bool defined = !(has_zero(y) && has_zero(x));
   return decorate(atan2(y.interval(), x.interval()), defined ? holds : Decoration::trv, y, x);
