@@ -6,6 +6,7 @@
 #pragma once
 
 #include <array>
+#include <climits>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -119,5 +120,11 @@ std::unique_ptr<Source> surface_source(Surface surface, std::size_t side, Draw& 
 enum class Contracts : std::uint8_t { first, second, both };
 std::unique_ptr<Source> surface_reverse_source(Surface surface, Contracts contracts, std::size_t side,
                                                Draw& draw);
+
+/// A reverse operation whose every other case is around a real solution, seldom a double.
+Operation with_witnesses(Operation operation, std::size_t count);
+/// The variants of pown and pown_rev.
+inline constexpr std::array kExponents = {-1, -2, -3, -4, -8, -17, INT_MIN, 0,    1,    2,
+                                          3,  4,  5,  7,  8,  10,  53,      1000, 1001, INT_MAX};
 
 }  // namespace hcsp::campaign
