@@ -12,43 +12,14 @@
 #include <vector>
 
 #include "domains/interval/kernel.h"
+#include "tests/support/environment.h"
 #include "tests/support/truth.h"
 
 namespace hcsp {
 namespace {
 
 using oracle::Dice;
-
-const int kModes[] = {FE_TONEAREST, FE_UPWARD, FE_DOWNWARD, FE_TOWARDZERO};
-
-/// Sets a rounding mode, and where the machine has them the flags that drop subnormal numbers, for a test's
-/// scope.
-class Environment {
- public:
-  Environment(int mode, bool flush) {
-    std::fegetenv(&saved_);
-    std::fesetround(mode);
-#if defined(__SSE2__)
-    if (flush) _mm_setcsr(_mm_getcsr() | 0x8040U);
-#else
-    static_cast<void>(flush);
-#endif
-  }
-  ~Environment() { std::fesetenv(&saved_); }
-  Environment(const Environment&) = delete;
-  Environment& operator=(const Environment&) = delete;
-
- private:
-  std::fenv_t saved_;
-};
-
-unsigned control() {
-#if defined(__SSE2__)
-  return _mm_getcsr() & 0xffc0U;
-#else
-  return static_cast<unsigned>(std::fegetround());
-#endif
-}
+using oracle::Environment;
 
 struct Operands {
   Interval a, b;
@@ -101,10 +72,10 @@ void expect_same_under(int mode, bool flush, const std::vector<Operands>& inputs
   bool kept = true;
   {
     Environment environment(mode, flush);
-    const unsigned before = control();
+    const unsigned before = oracle::control_bits();
     for (const Operands& o : inputs) {
       found.push_back(everything_of(o));
-      kept = kept && control() == before;
+      kept = kept && oracle::control_bits() == before;
     }
   }
   EXPECT_TRUE(kept) << "mode " << mode << " flush " << flush;
@@ -120,10 +91,10 @@ void expect_same_under(int mode, bool flush, const std::vector<Operands>& inputs
 }
 
 TEST(Rounding, GuardsSetTheModeAndRestoreIt) {
-  for (const int mode : kModes) {
+  for (const int mode : oracle::kRoundingModes) {
     for (const bool flush : {false, true}) {
       Environment environment(mode, flush);
-      const unsigned before = control();
+      const unsigned before = oracle::control_bits();
       {
         RoundUpward upward;
         EXPECT_GT(opaque(1.0) + opaque(0x1p-1074), 1.0);
@@ -135,7 +106,7 @@ TEST(Rounding, GuardsSetTheModeAndRestoreIt) {
         }
         EXPECT_GT(opaque(1.0) + opaque(0x1p-1074), 1.0);
       }
-      EXPECT_EQ(control(), before);
+      EXPECT_EQ(oracle::control_bits(), before);
     }
   }
 }
@@ -144,7 +115,7 @@ TEST(Rounding, EveryModeGivesTheSameBits) {
   const auto inputs = operands();
   std::vector<std::vector<Interval>> expected;
   for (const Operands& o : inputs) expected.push_back(everything_of(o));
-  for (const int mode : kModes) {
+  for (const int mode : oracle::kRoundingModes) {
     for (const bool flush : {false, true}) expect_same_under(mode, flush, inputs, expected);
   }
 }

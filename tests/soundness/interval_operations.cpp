@@ -28,8 +28,7 @@ At by(Unary f) {
 
 // ---- Functions of one variable.
 
-const Piece kLine{-kInfinity, kInfinity};
-const std::vector<Piece> kEven = {{-kInfinity, -0.0}, {0.0, kInfinity}};
+constexpr Piece kLine{-kInfinity, kInfinity}, kNegative{-kInfinity, -0.0}, kPositive{0.0, kInfinity};
 
 int recip_of(mpfr_ptr r, mpfr_srcptr x, mpfr_rnd_t direction) { return mpfr_ui_div(r, 1, x, direction); }
 int sign_of(mpfr_ptr r, mpfr_srcptr x, mpfr_rnd_t direction) {
@@ -95,7 +94,7 @@ void add_circular(std::vector<Operation>& all) {
   all.push_back(unary("atan", atan, mpfr_atan, {kLine}));
   const Focus moderate{-715.0, 715.0, {0.0, 1.0, 0x1.633ce8fb9f87dp9, -0x1.633ce8fb9f87dp9}};
   all.push_back(unary("sinh", sinh, mpfr_sinh, {kLine}, moderate));
-  all.push_back(unary("cosh", cosh, mpfr_cosh, kEven, moderate));
+  all.push_back(unary("cosh", cosh, mpfr_cosh, {kNegative, kPositive}, moderate));
   all.push_back(unary("tanh", tanh, mpfr_tanh, {kLine}, {-20.0, 20.0, {-19.06, 19.06}}));
   all.push_back(unary("asinh", asinh, mpfr_asinh, {kLine}));
   all.push_back(unary("acosh", acosh, mpfr_acosh, {{1.0, kInfinity}}, {0.0, 10.0, {1.0}}));
@@ -120,7 +119,7 @@ Monotone power(int n) {
     return r.bracket(mpfr_pow_si(r.result(), r.set(0, x), n, MPFR_RNDD));
   };
   const Focus wide{-30.0, 30.0, {-1.0, 1.0, 0x1p-512, 0x1p511}}, near_one{-1.5, 1.5, {-1.0, 1.0}};
-  return {at, kEven, std::abs(static_cast<double>(n)) > 100 ? near_one : wide};
+  return {at, {kNegative, kPositive}, std::abs(static_cast<double>(n)) > 100 ? near_one : wide};
 }
 
 Monotone root(int n) {
@@ -129,7 +128,7 @@ Monotone root(int n) {
     return r.bracket(mpfr_rootn_si(r.result(), r.set(0, x), n, MPFR_RNDD));
   };
   return {at,
-          n % 2 == 0 ? std::vector<Piece>{{0.0, kInfinity}} : kEven,
+          n % 2 == 0 ? std::vector<Piece>{kPositive} : std::vector<Piece>{kNegative, kPositive},
           {-1000.0, 1000.0, {-1.0, 1.0, 8.0, 1024.0}}};
 }
 
@@ -271,10 +270,12 @@ using I = const Interval&;
 
 void add_arithmetic(std::vector<Operation>& all) {
   all.push_back(unary("neg", [](I a) { return -a; }, minus, {kLine}));
-  all.push_back(unary("abs", abs, magnitude, kEven));
-  all.push_back(unary("sqr", sqr, mpfr_sqr, kEven, {-10.0, 10.0, {0x1p-537, 0x1p-511, 0x1p511, 0x1p512}}));
+  all.push_back(unary("abs", abs, magnitude, {kNegative, kPositive}));
+  all.push_back(unary("sqr", sqr, mpfr_sqr, {kNegative, kPositive},
+                      {-10.0, 10.0, {0x1p-537, 0x1p-511, 0x1p511, 0x1p512}}));
   all.push_back(unary("sqrt", sqrt, mpfr_sqrt, {{0.0, kInfinity}}, {0.0, 100.0, {0x1p-1022}}));
-  all.push_back(unary("recip", recip, recip_of, kEven, {-10.0, 10.0, {0x1p-1024, 0x1p1022, 0x1p-1022}}));
+  all.push_back(unary("recip", recip, recip_of, {kNegative, kPositive},
+                      {-10.0, 10.0, {0x1p-1024, 0x1p1022, 0x1p-1022}}));
   all.push_back(binary(
       "add", [](I a, I b) { return a + b; }, [](I a, I b) { return exact_sum(a, b, mpfr_add); }, mpfr_add));
   all.push_back(binary(
