@@ -2,6 +2,7 @@
 // Integer powers of both bounds at once (lanes.h), and roots.
 #include "domains/interval/pown.h"
 
+#include "domains/interval/cube.h"
 #include "domains/interval/kernel.h"
 #include "domains/interval/lanes.h"
 
@@ -79,13 +80,19 @@ Words is_moderate(const Bounds& x, int n) {
 
 }  // namespace
 
+Interval cube(const Interval& a) {
+  const Bounds image = cube_or_nan<Words>(a.bounds());
+  if (both(image == image)) return Interval::of_bounds(image);
+  return a.is_empty() ? a : power_by_mpfr(a, 3);
+}
+
 // Of an odd power both bounds (-lo, hi) are powers of bounds (-lo, hi), rounded upward; of an even one they
 // are minus a power of the least and a power of the greatest magnitude.
 Interval pown(const Interval& a, int n) {
+  if (n == 3) return cube(a);
   if (a.is_empty() || n == 1) return a;
   if (n == 0) return Interval::raw(1.0, 1.0);
   if (n == 2) return up::sqr(a);
-  if (n == 3) return cube(a);
   if (n < 0 || n > kMostFactors) return power_by_mpfr(a, n);
   const bool even = n % 2 == 0;
   const Interval size = up::abs(a);
@@ -95,20 +102,6 @@ Interval pown(const Interval& a, int n) {
   const Neighbours ends(fast_two_sum(power.hi, power.lo), 0x1p-90);
   if (!both(is_moderate(x, n) & (is_rounded_once | ends.sure))) return power_by_mpfr(a, n);
   return Interval::of_bounds(is_rounded_once ? power.hi : ends.above);
-}
-
-// With x = u + r, u of 26 bits, and u^2 = s = v + w, v of 26 bits: x^3 is v u, exactly, and w u + s r + x r
-// (u + x), below 2^-23 of it, in double with roundings that come to 2^-73. Where r is 0 nothing but the sum
-// is rounded; where it is not, the sums with the least and the most that the rest can be must be one double.
-Interval cube(const Interval& a) {
-  const Bounds x = a.bounds(), u = upper_bits(x), r = x - u, s = u * u, v = upper_bits(s);
-  const Bounds main = v * u, rest = (s - v) * u + s * r + x * (r * (u + x));
-  const Bounds size = magnitude(main), error = 0x1p-71 * size;
-  const Bounds result = main + rest;
-  const Words is_sure = (r == 0.0) | (main + (rest - error) == main + (rest + error));
-  const Words is_moderate = (size > 0x1p-900) & (size < 0x1p900);
-  if (both((is_moderate & is_sure) | (x == 0.0))) return Interval::of_bounds(result);
-  return a.is_empty() ? a : power_by_mpfr(a, 3);
 }
 
 Interval rootn(const Interval& a, int n) {
