@@ -8,6 +8,7 @@
 #include <string>
 
 #include "domains/interval/numeric.h"
+#include "domains/interval/reverse.h"
 
 namespace hcsp {
 
@@ -138,5 +139,12 @@ D round_ties_to_away(const D& a) { return step(round_ties_to_away, a); }
 D abs(const D& a) { return smooth(abs(a.interval()), true, a); }
 D min(const D& a, const D& b) { return smooth(min(a.interval(), b.interval()), true, a, b); }
 D max(const D& a, const D& b) { return smooth(max(a.interval(), b.interval()), true, a, b); }
+
+std::array<D, 2> mul_rev_to_pair(const D& b, const D& c) {
+  if (b.is_nai() || c.is_nai()) return {D::nai(), D::nai()};
+  const auto [first, second] = mul_rev_to_pair(b.interval(), c.interval());
+  const D rest(second, Decoration::trv);
+  return {has_zero(b) ? D(first, Decoration::trv) : c / b, rest};
+}
 
 }  // namespace hcsp

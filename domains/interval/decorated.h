@@ -3,6 +3,7 @@
 // it on the box that it was evaluated on.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -86,6 +87,8 @@ DecoratedInterval round_ties_to_away(const DecoratedInterval& a);
 DecoratedInterval abs(const DecoratedInterval& a);
 DecoratedInterval min(const DecoratedInterval& a, const DecoratedInterval& b);
 DecoratedInterval max(const DecoratedInterval& a, const DecoratedInterval& b);
+/// Where b is nowhere 0 the first part is the quotient c / b with its decoration; parts are trv elsewhere.
+std::array<DecoratedInterval, 2> mul_rev_to_pair(const DecoratedInterval& b, const DecoratedInterval& c);
 /// Operations that are no point functions (reverses, cancellation, intersection, hull) on the interval parts:
 /// trv, or NaI where an operand is.
 template <class Operation, class... Operands>

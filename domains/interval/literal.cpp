@@ -198,6 +198,13 @@ std::optional<Interval> bare(std::string_view text) {
   return {};
 }
 
+/// Whether a bare literal's bounds are finite as written: they may be rounded to infinities all the same.
+bool is_written_bounded(std::string_view text) {
+  return text.find("inf") == std::string_view::npos && text.find("entire") == std::string_view::npos &&
+         text.find("??") == std::string_view::npos && !trimmed(text.substr(1)).starts_with(',') &&
+         !trimmed(text.substr(0, text.size() - 1)).ends_with(',');
+}
+
 std::optional<Decoration> decoration_of(std::string_view word) {
   if (word == "com") return Decoration::com;
   if (word == "dac") return Decoration::dac;
@@ -220,14 +227,16 @@ DecoratedInterval DecoratedInterval::of_text(std::string_view text) {
   const bool in_brackets = whole.size() >= 2 && whole.front() == '[' && whole.back() == ']';
   if (in_brackets && trimmed(whole.substr(1, whole.size() - 2)) == "nai") return nai();
   const std::size_t underscore = std::min(whole.rfind('_'), whole.size());
-  const auto value = bare(whole.substr(0, underscore));
+  const std::string_view literal = whole.substr(0, underscore);
+  const auto value = bare(literal);
   require(value.has_value(), "DecoratedInterval::of_text: \"{}\" is not a decorated interval", text);
   const DecoratedInterval best(*value);
   if (underscore == whole.size()) return best;
   const auto decoration = decoration_of(whole.substr(underscore + 1));
-  require(decoration && *decoration <= best.decoration(),
+  const bool is_bounded = !value->is_empty() && is_written_bounded(literal);
+  require(decoration && *decoration <= (is_bounded ? Decoration::com : best.decoration()),
           "DecoratedInterval::of_text: \"{}\" cannot have this decoration", text);
-  return {*value, *decoration};
+  return {*value, std::min(*decoration, best.decoration())};
 }
 
 }  // namespace hcsp

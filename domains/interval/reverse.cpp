@@ -120,14 +120,22 @@ Interval quotients(const Interval& c, double near, double far, bool positive, Qu
                   : Interval::raw(quotient(c.hi(), of_high, MPFR_RNDD), quotient(c.lo(), of_low, MPFR_RNDU));
 }
 
-/// The positive bases x with x^b in c, without regard to x.
+/// The part of x in quotients by denominators of one sign. Where c is without 1 none is `pole`, the base 1 or
+/// the exponent 0: that is the limit for an infinite exponent or for a base of 0 or oo.
+Interval part_of(const Interval& quotients, const Interval& c, const Interval& x, double pole) {
+  const Interval part = meet(quotients, x);
+  const bool is_limit = part.lo() == pole && part.hi() == pole && !c.contains(1.0);
+  return is_limit ? Interval::empty() : part;
+}
+
+/// The positive bases in x with x^b in c.
 Interval positive_bases(const Interval& b, const Interval& c, const Interval& x) {
   if (c.hi() == 0) return Interval::empty();
   if (b.contains(0.0) && c.contains(1.0)) return x;
   Interval bases = Interval::empty();
-  if (b.hi() > 0) bases = meet(quotients(c, std::max(b.lo(), 0.0), b.hi(), true, Root{true}), x);
+  if (b.hi() > 0) bases = part_of(quotients(c, std::max(b.lo(), 0.0), b.hi(), true, Root{true}), c, x, 1.0);
   if (b.lo() < 0)
-    bases = join(bases, meet(quotients(c, std::min(b.hi(), 0.0), b.lo(), false, Root{false}), x));
+    bases = join(bases, part_of(quotients(c, std::min(b.hi(), 0.0), b.lo(), false, Root{false}), c, x, 1.0));
   return bases;
 }
 
@@ -157,11 +165,13 @@ Interval pow_rev2(const Interval& a, const Interval& c, const Interval& x) {
   }
   if (base.contains(1.0) && power.contains(1.0)) return exponent;
   Interval exponents = Interval::empty();
-  if (base.hi() > 1)
-    exponents = meet(quotients(power, std::max(base.lo(), 1.0), base.hi(), true, Logarithm{true}), exponent);
+  if (base.hi() > 1) {
+    const Interval above = quotients(power, std::max(base.lo(), 1.0), base.hi(), true, Logarithm{true});
+    exponents = part_of(above, power, exponent, 0.0);
+  }
   if (base.lo() < 1) {
     const Interval below = quotients(power, std::min(base.hi(), 1.0), base.lo(), false, Logarithm{false});
-    exponents = join(exponents, meet(below, exponent));
+    exponents = join(exponents, part_of(below, power, exponent, 0.0));
   }
   return opaque_bounds(exponents);
 }
