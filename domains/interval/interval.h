@@ -89,7 +89,8 @@ class Interval {
   Bounds bounds_;
 };
 
-// The lattice of intervals, ordered by inclusion. Comparisons only: no rounding is involved.
+// The lattice of intervals, ordered by inclusion. Comparisons only: no rounding is involved. They see
+// denormals as the thread does: with denormals-are-zero set by the caller, hold a guard of rounding.h.
 inline Interval meet(const Interval& a, const Interval& b) {
   const Bounds met = least(a.bounds(), b.bounds());
   return Interval::of_bounds(-swapped(met) > met ? Interval::empty().bounds() : met);
