@@ -47,7 +47,7 @@ Interval exp(const Interval& a) {
   const Bounds series = z * (1.0 / 24 + z * (1.0 / 120));
   const Bounds rest = r.lo + z * r.lo + z * z * (0.5 + z * (1.0 / 6 + series));
   const Pair p = fast_two_sum(z, rest);
-  const Words number = words(shifted) << 32 >> 32;
+  const Words number = words(shifted);  // k in its low 51 bits
   const Pair power = gathered(kPowersOfTwo[static_cast<std::size_t>(number[0] & 511)],
                               kPowersOfTwo[static_cast<std::size_t>(number[1] & 511)]);
   const Bounds power_upper = upper_bits(power.hi), p_upper = upper_bits(p.hi);
@@ -55,13 +55,14 @@ Interval exp(const Interval& a) {
   const Bounds product_rest = power_upper * (p.hi - p_upper) + (power.hi - power_upper) * p.hi;
   const Bounds small = product_rest + (power.hi * p.lo + (power.lo + power.lo * p.hi));
   const Neighbours ends(fast_two_sum(sum.hi, sum.lo + small), 0x1p-70);
-  return both(ends.sure) ? outer(ends, number >> 9 << 52) : by_mpfr(mpfr_exp, a);
+  return both(ends.sure) ? outer(ends, (number & ~511) << 43) : by_mpfr(mpfr_exp, a);
 }
 
 // x = 2^e m, m next to 1 / r for an r of 20 bits, z = m r - 1 exactly, |z| < 2^-7.9: log x = e log 2 - log r
 // + log(1 + z). z^2 is exact but for 2^-78 of it, the terms from z^3/3 on, below 2^-17.4 |z|, are taken in
 // double, the truncation is below 2^-74 |z|. For m next to 1 r is 1 and e is 0, so that the result is z (1 +
-// ...); elsewhere it is at least 2^-8.5.
+// ...); elsewhere it is at least 2^-8.5. Every first summand is 0 or the greater, but for z's, where that is
+// below 2^-25: then both are multiples of 2^-72 and the sum is exact.
 Interval log(const Interval& a) {
   const bool from_zero = a.lo() <= 0;
   const Bounds x{from_zero ? 2.0 : a.lo(), a.hi()};
@@ -69,24 +70,28 @@ Interval log(const Interval& a) {
     if (a.is_empty() || a.hi() <= 0) return Interval::empty();
     return by_mpfr(mpfr_log, Interval::raw(std::max(a.lo(), 0.0), a.hi()));
   }
-  constexpr std::int64_t kRootOfHalf = 0x3fe6a09e667f3bcd;
+  constexpr std::int64_t kRootOfHalf = 0x3fe6a09e667f3bcd, kBias = 1023;
   constexpr double kLog2 = 0x1.62e42fefa4p-1, kLog2Rest = -0x1.8432a1b0e2634p-43;
-  const Words exponent = (words(x) - kRootOfHalf) >> 52;
+  using Unsigned [[gnu::vector_size(16)]] = std::uint64_t;  // whose right shift is one instruction
+  const Unsigned shifted = std::bit_cast<Unsigned>(words(x) + ((kBias << 52) - kRootOfHalf)) >> 52;
+  const Words exponent = std::bit_cast<Words>(shifted) - kBias;
   const Bounds m = std::bit_cast<Bounds>(words(x) - (exponent << 52));
+  const Bounds place = m * 128.0 + 0.5;
   const auto entry = [&](int lane) -> const Reciprocal& {
-    return kReciprocals[static_cast<std::size_t>(static_cast<int>(m[lane] * 128 + 0.5) - kFirstReciprocal)];
+    return kReciprocals[static_cast<std::size_t>(static_cast<int>(place[lane]) - kFirstReciprocal)];
   };
   const Reciprocal &low = entry(0), &high = entry(1);
-  const Bounds r{low.r, high.r}, e{static_cast<double>(exponent[0]), static_cast<double>(exponent[1])};
+  const Bounds r{low.r, high.r};
+  const Bounds e = std::bit_cast<Bounds>(exponent + words(Bounds{} + kRounder)) - kRounder;
   const Bounds m_high = upper_bits(m);
-  const Pair z = two_sum(m_high * r - 1.0, (m - m_high) * r);
+  const Pair z = fast_two_sum(m_high * r - 1.0, (m - m_high) * r);
   const Bounds z_high = upper_bits(z.hi), half_square = 0.5 * z_high * z_high;
   const Bounds square_rest = (z.hi - z_high) * (z.hi + z_high) + 2.0 * z.hi * z.lo;
   const Bounds t = z.hi;
   const Bounds tail = 1.0 / 5 - t * (1.0 / 6 - t * (1.0 / 7 - t * (1.0 / 8 - t * (1.0 / 9))));
   const Bounds series = t * t * t * (1.0 / 3 - t * (0.25 - t * tail));
-  const Pair first = two_sum(e * kLog2, Bounds{low.log.hi, high.log.hi});
-  const Pair second = two_sum(first.hi, z.hi), third = two_sum(second.hi, -half_square);
+  const Pair first = fast_two_sum(e * kLog2, Bounds{low.log.hi, high.log.hi});
+  const Pair second = fast_two_sum(first.hi, z.hi), third = fast_two_sum(second.hi, -half_square);
   const Bounds table_rest = e * kLog2Rest + Bounds{low.log.lo, high.log.lo};
   const Bounds small = table_rest + (z.lo + (series - 0.5 * square_rest));
   const Neighbours ends(fast_two_sum(third.hi, first.lo + second.lo + third.lo + small), 0x1p-66);

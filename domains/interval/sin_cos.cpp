@@ -63,11 +63,13 @@ Wave wave_by_mpfr(double x, int shift) {
 
 /// x - k pi/2 for the integer k nearest to x / (pi/2), |x| < 2^20 (Cody and Waite). The first three parts of
 /// pi/2 have 33 bits, so that their products with k < 2^20 are exact, as is the first difference: both terms
-/// are multiples of 2^-53 (when k > 0, x > 1/2) and it is below 1. Absolute error: 2^-99 |r| + 2^-129.
+/// are multiples of 2^-53 (when k > 0, x > 1/2) and it is below 1. In the sums that follow the first summand
+/// is the greater, or both are multiples of 2^-66 (2^-101) below 2^-13 (2^-48) and the sum is exact. Absolute
+/// error: 2^-99 |r| + 2^-129.
 Pair reduce(const Bounds& x, const Bounds& k) {
   const Bounds first = x - k * 0x1.921fb544p+0;
-  const Pair second = two_sum(first, -(k * 0x1.0b4611a6p-34));
-  const Pair third = two_sum(second.hi, -(k * 0x1.3198a2ep-69));
+  const Pair second = fast_two_sum(first, -(k * 0x1.0b4611a6p-34));
+  const Pair third = fast_two_sum(second.hi, -(k * 0x1.3198a2ep-69));
   return fast_two_sum(third.hi, (second.lo + third.lo) - k * 0x1.b839a252049c1p-104);
 }
 
@@ -79,11 +81,12 @@ Pair reduce(const Bounds& x, const Bounds& k) {
 /// after it 5; what the rest of M d and M (sin d - d) costs is below 2^-72 |M d|. |M d| < 0.51 B where B is
 /// not 0, so B < 2.05 f(r): together 2^-68.6. Where B is 0 (the sine, j = 0), only the latter counts.
 Pair sine_or_cosine(const Pair& r, const Words& odd, const Words& flips) {
-  // A little less than 1/2, so that r > 2^-10 where j > 0 and r.hi - c is exact.
+  // A little less than 1/2, so that r > 2^-10 where j > 0 and r.hi - c is exact: 0, or at least
+  // an ulp of r.hi, which is more than r.lo.
   const Bounds place = r.hi * (1 / kSineSpacing) + (0.5 - 0x1p-12);
   const int low = static_cast<int>(place[0]), high = static_cast<int>(place[1]);
   const Bounds c{static_cast<double>(low), static_cast<double>(high)};
-  const Pair d = two_sum(r.hi - c * kSineSpacing, r.lo);
+  const Pair d = fast_two_sum(r.hi - c * kSineSpacing, r.lo);
   static constexpr const DoubleDouble* kTables[] = {kSines.data(), kCosines.data()};
   Pair base = gathered(kTables[odd[0]][low], kTables[odd[1]][high]);
   Pair slope = gathered(kTables[1 - odd[0]][low], kTables[1 - odd[1]][high]);
