@@ -31,7 +31,7 @@ DoubleDouble angle_in_octant(DoubleDouble y, DoubleDouble x) {
   const double c = static_cast<double>(j) * kAtanSpacing;
   const DoubleDouble q = j == 0 ? divide(y, x) : divide(add_multiple(y, -c, x), add_multiple(x, c, y));
   const double z = q.hi * q.hi;
-  const double series = z * (-1.0 / 3 + z * (1.0 / 5 - z * (1.0 / 7 - z * (1.0 / 9))));
+  const double series = z * (-kInverse<3> + z * (kInverse<5> - z * (kInverse<7> - z * (kInverse<9>))));
   const DoubleDouble base = kArctangents[j];
   const DoubleDouble sum = fast_two_sum(base.hi, q.hi);  // |base| > |q|, or base is 0
   return fast_two_sum(sum.hi, sum.lo + (base.lo + (q.lo + q.hi * series)));

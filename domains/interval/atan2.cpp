@@ -10,11 +10,6 @@ namespace hcsp::up {
 
 namespace {
 
-/// The tightest enclosures of the angles of two vectors (x, y).
-struct Angles {
-  Bounds below, above;
-};
-
 /// The doubles around atan2(y, x). An infinite argument stands for the limit.
 Interval angle_by_mpfr(const Interval& y, const Interval& x) {
   Number result(mpfr_prec_t{53}), ordinate(y.lo()), abscissa(x.lo());
@@ -68,7 +63,7 @@ Octant angle_in_octant(const Bounds& b, const Bounds& a) {
   const Bounds c = kAtanSpacing * Bounds{static_cast<double>(low), static_cast<double>(high)};
   const Pair q = quotient_of(minus_multiple(b, c, a), minus_multiple(a, -c, b));
   const Bounds z = q.hi * q.hi;
-  const Bounds series = q.hi * (z * (-1.0 / 3 + z * (1.0 / 5 - z * (1.0 / 7))));
+  const Bounds series = q.hi * (z * (-kInverse<3> + z * (kInverse<5> - z * (kInverse<7>))));
   return {gathered(kArctangents[static_cast<std::size_t>(low)], kArctangents[static_cast<std::size_t>(high)]),
           Pair{q.hi, q.lo + series}};
 }
@@ -78,9 +73,9 @@ constexpr double kRelativeError = 0x1p-67;
 /// Where products and quotients of two numbers, and their errors, can neither overflow nor underflow.
 Words is_moderate(const Bounds& size) { return (size >= 0x1p-300) & (size <= 0x1p300); }
 
-/// The angle of (x, y) is n pi/2 +- that of (max, min) of |x| and |y|, with the sign of y: n is 0 or, left of
-/// 0, 2; above the diagonals 1.
-Angles angles_of(const Bounds& y, const Bounds& x) {
+/// The tightest interval (-lo, hi) between the angles of two vectors (x, y). That is n pi/2 +- that of (max,
+/// min) of |x| and |y|, with the sign of y: n is 0 or, left of 0, 2; above the diagonals 1.
+Bounds angles_of(const Bounds& y, const Bounds& x) {
   const Bounds height = magnitude(y), breadth = magnitude(x);
   const Words usual = is_moderate(height) & is_moderate(breadth);
   const Bounds one{1.0, 1.0};
@@ -94,18 +89,13 @@ Angles angles_of(const Bounds& y, const Bounds& x) {
   const Pair first = two_sum(quarter_turns * kHalfPi.hi, flipped(octant.base.hi, falls));
   const Pair second = two_sum(first.hi, flipped(octant.turned.hi, falls));
   const Bounds small = quarter_turns * kHalfPi.lo + flipped(octant.base.lo + octant.turned.lo, falls);
-  const Neighbours ends(fast_two_sum(second.hi, first.lo + second.lo + small), kRelativeError);
-  Angles angles{ends.below, ends.above};
+  const OutwardEnds ends(second.hi, first.lo + second.lo + small, kRelativeError);
   const Words sure = usual & ends.sure;
-  if (!both(sure)) {
-    for (int lane = 0; lane < 2; ++lane) {
-      if (sure[lane] != 0) continue;
-      const Interval angle = decided_angle(y[lane], x[lane]);
-      angles.below[lane] = angle.lo();
-      angles.above[lane] = angle.hi();
-    }
-  }
-  return angles;
+  if (both(sure)) return ends.bounds;
+  Bounds bounds = ends.bounds;
+  if (sure[0] == 0) bounds[0] = -decided_angle(y[0], x[0]).lo();
+  if (sure[1] == 0) bounds[1] = decided_angle(y[1], x[1]).hi();
+  return bounds;
 }
 
 /// The angles of the vectors (x, 0).
@@ -128,15 +118,13 @@ Interval atan2(const Interval& y, const Interval& x) {
   const double right_y = x.hi() > 0 ? y_near_right : y_far_right;
   const Bounds least_y_x = above ? Bounds{right_y, x.hi()} : Bounds{x.lo() < 0 ? y.hi() : y.lo(), x.lo()};
   const Bounds greatest_y_x = below ? Bounds{right_y, x.hi()} : Bounds{x.lo() < 0 ? y.lo() : y.hi(), x.lo()};
-  const Angles ends = angles_of(__builtin_shufflevector(least_y_x, greatest_y_x, 0, 2),
-                                __builtin_shufflevector(least_y_x, greatest_y_x, 1, 3));
-  return Interval::raw(ends.below[0], ends.above[1]);
+  return Interval::of_bounds(angles_of(__builtin_shufflevector(least_y_x, greatest_y_x, 0, 2),
+                                       __builtin_shufflevector(least_y_x, greatest_y_x, 1, 3)));
 }
 
 Interval atan(const Interval& a) {
   if (a.is_empty()) return a;
-  const Angles ends = angles_of(Bounds{a.lo(), a.hi()}, Bounds{1.0, 1.0});
-  return Interval::raw(ends.below[0], ends.above[1]);
+  return Interval::of_bounds(angles_of(Bounds{a.lo(), a.hi()}, Bounds{1.0, 1.0}));
 }
 
 }  // namespace hcsp::up

@@ -106,6 +106,18 @@ void store(Results result, std::size_t i, const Outward& value) {
   result.hi[i] = value.hi;
 }
 
+// As arrays of doubles, which the compiler turns into vectors: an interval is its two bounds.
+static_assert(sizeof(Interval) == 2 * sizeof(double));
+Outward loaded(const Interval* a, std::size_t i) {
+  const auto* bounds = reinterpret_cast<const double*>(a);
+  return {bounds[2 * i], bounds[2 * i + 1]};
+}
+void store(Interval* result, std::size_t i, const Outward& value) {
+  auto* bounds = reinterpret_cast<double*>(result);
+  bounds[2 * i] = value.minus_lo;
+  bounds[2 * i + 1] = value.hi;
+}
+
 Interval interval(Intervals a, std::size_t i) { return Interval::raw(a.lo[i], a.hi[i]); }
 void store(Results result, std::size_t i, const Interval& value) {
   result.lo[i] = value.lo();
@@ -116,17 +128,23 @@ void store(Results result, std::size_t i, const Interval& value) {
 
 // The loops stand in the cloned functions themselves, where they are compiled for each machine; ivdep,
 // because arrays are the same or apart.
-#define HCSP_UNARY(name)                                                                           \
-  HCSP_CLONES void name(std::size_t n, Intervals a, Results result) {                              \
+#define HCSP_UNARY_ON(name, Operand, Result)                                                       \
+  HCSP_CLONES void name(std::size_t n, Operand a, Result result) {                                 \
     const RoundUpward guard;                                                                       \
     _Pragma("GCC ivdep") for (std::size_t i = 0; i < n; ++i) store(result, i, name(loaded(a, i))); \
   }
-#define HCSP_BINARY(name)                                                          \
-  HCSP_CLONES void name(std::size_t n, Intervals a, Intervals b, Results result) { \
-    const RoundUpward guard;                                                       \
-    _Pragma("GCC ivdep") for (std::size_t i = 0; i < n; ++i)                       \
-        store(result, i, name(loaded(a, i), loaded(b, i)));                        \
+#define HCSP_BINARY_ON(name, Operand, Result)                                 \
+  HCSP_CLONES void name(std::size_t n, Operand a, Operand b, Result result) { \
+    const RoundUpward guard;                                                  \
+    _Pragma("GCC ivdep") for (std::size_t i = 0; i < n; ++i)                  \
+        store(result, i, name(loaded(a, i), loaded(b, i)));                   \
   }
+#define HCSP_UNARY(name)                  \
+  HCSP_UNARY_ON(name, Intervals, Results) \
+  HCSP_UNARY_ON(name, const Interval*, Interval*)
+#define HCSP_BINARY(name)                  \
+  HCSP_BINARY_ON(name, Intervals, Results) \
+  HCSP_BINARY_ON(name, const Interval*, Interval*)
 // These have two lanes of their own.
 #define HCSP_ELEMENTARY(name)                                                       \
   void name(std::size_t n, Intervals a, Results result) {                           \
@@ -187,6 +205,8 @@ void atan2(std::size_t n, Intervals y, Intervals x, Results result) {
 
 #undef HCSP_UNARY
 #undef HCSP_BINARY
+#undef HCSP_UNARY_ON
+#undef HCSP_BINARY_ON
 #undef HCSP_ELEMENTARY
 
 }  // namespace hcsp::batch

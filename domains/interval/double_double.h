@@ -11,6 +11,11 @@
 
 namespace hcsp {
 
+/// 1 / n as a constant: written as a quotient, it would be divided anew each time, in the thread's rounding
+/// mode (-frounding-math).
+template <int n>
+inline constexpr double kInverse = 1.0 / n;
+
 /// T is double, or Bounds for two at once.
 template <class T>
 struct Doubled {

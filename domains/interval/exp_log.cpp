@@ -19,12 +19,6 @@ Interval by_mpfr(Function f, const Interval& a) {
       a);
 }
 
-/// From the double below the first to the double above the second.
-Interval outer(const Neighbours& ends, const Words& scale) {
-  return Interval::raw(std::bit_cast<Bounds>(words(ends.below) + scale)[0],
-                       std::bit_cast<Bounds>(words(ends.above) + scale)[1]);
-}
-
 }  // namespace
 
 // x = k log(2)/512 + r, exp x = 2^(k/512) exp r. k log(2)/512 is subtracted in two parts, the first exactly,
@@ -44,8 +38,8 @@ Interval exp(const Interval& a) {
   const Bounds k = shifted - kRounder;
   const Pair r = two_sum(x - k * kStep, k * -kStepRest);
   const Bounds z = r.hi;
-  const Bounds series = z * (1.0 / 24 + z * (1.0 / 120));
-  const Bounds rest = r.lo + z * r.lo + z * z * (0.5 + z * (1.0 / 6 + series));
+  const Bounds series = z * (kInverse<24> + z * (kInverse<120>));
+  const Bounds rest = r.lo + z * r.lo + z * z * (0.5 + z * (kInverse<6> + series));
   const Pair p = fast_two_sum(z, rest);
   const Words number = words(shifted);  // k in its low 51 bits
   const Pair power = gathered(kPowersOfTwo[static_cast<std::size_t>(number[0] & 511)],
@@ -54,14 +48,16 @@ Interval exp(const Interval& a) {
   const Pair sum = fast_two_sum(power.hi, power_upper * p_upper);
   const Bounds product_rest = power_upper * (p.hi - p_upper) + (power.hi - power_upper) * p.hi;
   const Bounds small = product_rest + (power.hi * p.lo + (power.lo + power.lo * p.hi));
-  const Neighbours ends(fast_two_sum(sum.hi, sum.lo + small), 0x1p-70);
-  return both(ends.sure) ? outer(ends, (number & ~511) << 43) : by_mpfr(mpfr_exp, a);
+  const OutwardEnds ends(sum.hi, sum.lo + small, 0x1p-70);
+  if (!both(ends.sure)) return by_mpfr(mpfr_exp, a);
+  return Interval::of_bounds(std::bit_cast<Bounds>(words(ends.bounds) + ((number & ~511) << 43)));
 }
 
-// x = 2^e m, m next to 1 / r for an r of 20 bits, z = m r - 1 exactly, |z| < 2^-7.9: log x = e log 2 - log r
-// + log(1 + z). z^2 is exact but for 2^-78 of it, the terms from z^3/3 on, below 2^-17.4 |z|, are taken in
-// double, the truncation is below 2^-74 |z|. For m next to 1 r is 1 and e is 0, so that the result is z (1 +
-// ...); elsewhere it is at least 2^-8.5. Every first summand is 0 or the greater, but for z's, where that is
+// x = 2^e m, m next to 1 / r for an r of 21 bits, z = m r - 1 exactly, |z| < 2^-9.4: log x = e log 2 - log r
+// + log(1 + z). z^2 is exact but for 2^-78 of it; the terms from z^3/3 on are taken in double. For m next to
+// 1 r is 1 and e is 0; elsewhere the result is at least 2^-10.1, and everywhere at least 0.998 |z|. Where
+// that is no more than 2^-10, z^3/3 is below 2^-21.5 of it, and the dozen roundings on its scale come to
+// 2^-69.9; the truncation is below 2^-72. Every first summand is 0 or the greater, but for z's, where that is
 // below 2^-25: then both are multiples of 2^-72 and the sum is exact.
 Interval log(const Interval& a) {
   const bool from_zero = a.lo() <= 0;
@@ -76,7 +72,7 @@ Interval log(const Interval& a) {
   const Unsigned shifted = std::bit_cast<Unsigned>(words(x) + ((kBias << 52) - kRootOfHalf)) >> 52;
   const Words exponent = std::bit_cast<Words>(shifted) - kBias;
   const Bounds m = std::bit_cast<Bounds>(words(x) - (exponent << 52));
-  const Bounds place = m * 128.0 + 0.5;
+  const Bounds place = m * 512.0 + 0.5;
   const auto entry = [&](int lane) -> const Reciprocal& {
     return kReciprocals[static_cast<std::size_t>(static_cast<int>(place[lane]) - kFirstReciprocal)];
   };
@@ -88,16 +84,16 @@ Interval log(const Interval& a) {
   const Bounds z_high = upper_bits(z.hi), half_square = 0.5 * z_high * z_high;
   const Bounds square_rest = (z.hi - z_high) * (z.hi + z_high) + 2.0 * z.hi * z.lo;
   const Bounds t = z.hi;
-  const Bounds tail = 1.0 / 5 - t * (1.0 / 6 - t * (1.0 / 7 - t * (1.0 / 8 - t * (1.0 / 9))));
-  const Bounds series = t * t * t * (1.0 / 3 - t * (0.25 - t * tail));
+  const Bounds square = t * t;
+  const Bounds tail = kInverse<5> - t * (kInverse<6> - t * kInverse<7>);
+  const Bounds series = t * square * (kInverse<3> - t * 0.25 + square * tail);
   const Pair first = fast_two_sum(e * kLog2, Bounds{low.log.hi, high.log.hi});
   const Pair second = fast_two_sum(first.hi, z.hi), third = fast_two_sum(second.hi, -half_square);
   const Bounds table_rest = e * kLog2Rest + Bounds{low.log.lo, high.log.lo};
   const Bounds small = table_rest + (z.lo + (series - 0.5 * square_rest));
-  const Neighbours ends(fast_two_sum(third.hi, first.lo + second.lo + third.lo + small), 0x1p-66);
+  const OutwardEnds ends(third.hi, first.lo + second.lo + third.lo + small, 0x1p-69);
   if (!both(ends.sure)) return by_mpfr(mpfr_log, Interval::raw(std::max(a.lo(), 0.0), a.hi()));
-  const Interval image = outer(ends, Words{});
-  return from_zero ? Interval::raw(-kInfinity, image.hi()) : image;
+  return Interval::of_bounds(from_zero ? Bounds{kInfinity, ends.bounds[1]} : ends.bounds);
 }
 
 }  // namespace hcsp::up

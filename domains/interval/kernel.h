@@ -42,6 +42,12 @@ inline double sqrt_down(double x) {
 inline Bounds empty_for_nan(const Bounds& sum) { return greatest(sum, Bounds{-kInfinity, -kInfinity}); }
 inline Bounds zero_for_nan(const Bounds& product) { return product == product ? product : Bounds{}; }
 
+/// Each with its sign bit cleared.
+inline Bounds magnitude(const Bounds& x) {
+  using Words [[gnu::vector_size(16)]] = std::int64_t;
+  return std::bit_cast<Bounds>(std::bit_cast<Words>(x) & INT64_MAX);
+}
+
 inline double zero_for_nan(double product) { return product == product ? product : 0.0; }
 
 /// For empty sets with the bounds of Interval::empty(), as every operation gives them.
@@ -86,17 +92,20 @@ inline Interval div(const Interval& a, const Interval& b) {
   if (is_any_empty(a, b) || both(y == 0.0)) return Interval::empty();
   if (both(x == 0.0)) return a;
   const auto positive = y > 0.0;  // both: 0 is inside b
-  return Interval::of_bounds((positive & __builtin_shufflevector(positive, positive, 1, 0)) != 0
-                                 ? Interval::entire().bounds()
-                                 : quotient(x, y));
+  const auto is_around_zero = positive & __builtin_shufflevector(positive, positive, 1, 0);
+  // By bits: of a choice the compiler makes a branch, which would be mispredicted.
+  using Words [[gnu::vector_size(16)]] = std::int64_t;
+  const Words entire = std::bit_cast<Words>(Interval::entire().bounds()),
+              image = std::bit_cast<Words>(quotient(x, y));
+  return Interval::of_bounds(std::bit_cast<Bounds>((is_around_zero & entire) | (~is_around_zero & image)));
 }
 
+/// (-lo, hi) of the square is v |v| for v = (-mig, mag), of the empty set, too.
 inline Interval sqr(const Interval& a) {
-  const Bounds x = a.bounds(), mag = greatest(x, swapped(x)),
-               minus_mig = least(least(x, swapped(x)), Bounds{});
-  const Bounds square =
-      __builtin_shufflevector(minus_mig, mag, 0, 2) * __builtin_shufflevector(-minus_mig, mag, 0, 2);
-  return Interval::of_bounds(x == -kInfinity ? x : square);
+  const Bounds x = a.bounds(), mag = greatest(x, swapped(x));
+  const Bounds minus_mig = least(least(x, swapped(x)), Bounds{-0.0, -0.0});
+  const Bounds v = __builtin_shufflevector(minus_mig, mag, 0, 3);
+  return Interval::of_bounds(v * magnitude(v));
 }
 
 /// The root and the square of a non-empty interval of bounds >= 0.

@@ -11,7 +11,7 @@
 
 #include "domains/interval/double_double.h"
 #include "domains/interval/guarded.h"
-#include "domains/interval/interval.h"
+#include "domains/interval/kernel.h"
 
 namespace hcsp::up {
 
@@ -19,7 +19,6 @@ using Pair = Doubled<Bounds>;
 using Words [[gnu::vector_size(16)]] = std::int64_t;
 
 inline Words words(const Bounds& x) { return std::bit_cast<Words>(x); }
-inline Bounds magnitude(const Bounds& x) { return std::bit_cast<Bounds>(words(x) & INT64_MAX); }
 /// The sign bits of x.
 inline Words sign_of(const Bounds& x) { return words(x) & INT64_MIN; }
 /// x with the signs of flips changed.
@@ -47,6 +46,21 @@ struct Neighbours {
     sure = (-value.lo > error) & (value.hi - below + value.lo > error);
   }
   Bounds below, above;
+  Words sure;
+};
+
+/// The bounds (-lo, hi) of an interval whose ends are within `relative_error` of main + rest, where they are
+/// sure: either end rounds to one double whatever the error is. The error must leave room for an ulp of rest.
+/// PRECONDITION: main is normal and not 0 in the lanes that matter, and rest is far below it.
+struct OutwardEnds {
+  OutwardEnds(const Bounds& main, const Bounds& rest, double relative_error) {
+    constexpr Words kLowerEnd{INT64_MIN, 0};
+    const Bounds error = relative_error * magnitude(main);
+    const Bounds m = flipped(main, kLowerEnd), r = flipped(rest, kLowerEnd);
+    bounds = m + (r + error);
+    sure = bounds == m + (r - error);
+  }
+  Bounds bounds;
   Words sure;
 };
 

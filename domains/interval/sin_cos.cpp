@@ -95,8 +95,8 @@ Pair sine_or_cosine(const Pair& r, const Words& odd, const Words& flips) {
   slope = {flipped(slope.hi, slope_flips), flipped(slope.lo, slope_flips)};
 
   const Bounds z = d.hi * d.hi;
-  const Bounds cosine_minus_1 = z * (-0.5 + z * (1.0 / 24 - z * (1.0 / 720)));
-  const Bounds sine_minus_d = d.hi * (z * (-1.0 / 6 + z * (1.0 / 120 - z * (1.0 / 5040))));
+  const Bounds cosine_minus_1 = z * (-0.5 + z * (kInverse<24> - z * (kInverse<720>)));
+  const Bounds sine_minus_d = d.hi * (z * (-kInverse<6> + z * (kInverse<120> - z * (kInverse<5040>))));
   const Bounds slope_upper = upper_bits(slope.hi), d_upper = upper_bits(d.hi);
   const Bounds linear = slope_upper * d_upper;
   const Bounds linear_rest =

@@ -59,6 +59,9 @@ namespace {
 
 constexpr std::uint64_t kEveryLane = ~std::uint64_t{0};
 
+/// Boxes side by side from which on a batch form is faster than one after the other.
+constexpr std::size_t kBatch = 8;
+
 constexpr std::uint64_t first_lanes(std::size_t lanes) {
   return lanes == 64 ? kEveryLane : (std::uint64_t{1} << lanes) - 1;
 }
@@ -131,7 +134,9 @@ template <class Operator, bool kBoolean, bool kRelation, bool kCore>
 void Evaluation::forward_one(const Program::Instruction& at, std::size_t lanes) {
   const Place &of_y = places_[at.result], &of_a = places_[at.a], &of_b = places_[at.b], &of_c = places_[at.c];
   const std::uint64_t operands_defined = defined_[at.a] & defined_[at.b] & defined_[at.c];
-  std::uint64_t defined = operands_defined;
+  constexpr bool kChoice = std::is_same_v<Operator, operators::IfThenElse>;
+  constexpr bool kPartial = !kBoolean && !kChoice && !operators::is_total<Operator>;
+  std::uint64_t defined_values = 0;  // a bit a value
   const std::size_t values = std::min<std::size_t>(lanes, of_y.mask + 1U);
   const std::size_t row = std::min(values, row_);
   for (std::size_t first = 0; first < values; first += row) {
@@ -141,6 +146,14 @@ void Evaluation::forward_one(const Program::Instruction& at, std::size_t lanes) 
     const auto step = [&](const Place& of) { return of.shift == of_y.shift ? of.mask & 1U : 0U; };
     const Interval *a = start(of_a), *b = start(of_b), *c = start(of_c);
     const std::size_t step_a = step(of_a), step_b = step(of_b), step_c = step(of_c);
+    if constexpr (!kCore && requires { Operator::row(row, a, b, y); }) {
+      if (row >= kBatch && step_a == 1 && step_b == 1) {
+        Operator::row(row, a, b, y);
+        for (std::size_t i = 0; kPartial && i < row; ++i)
+          defined_values |= static_cast<std::uint64_t>(Operator::defined(a[i], b[i], c[i])) << (first + i);
+        continue;
+      }
+    }
     for (std::size_t i = 0; i < row; ++i, ++y, a += step_a, b += step_b, c += step_c) {
       Interval value;
       if constexpr (kCore) {
@@ -157,36 +170,36 @@ void Evaluation::forward_one(const Program::Instruction& at, std::size_t lanes) 
           value = join(value, kFalse);
         }
       }
+      if constexpr (kPartial)
+        defined_values |= static_cast<std::uint64_t>(Operator::defined(*a, *b, *c)) << (first + i);
+      if constexpr (kChoice) {
+        const std::size_t lane = (first + i) << of_y.shift;
+        const bool is_defined = (operators::is_false(*a) || this->defined(at.b, lane)) &&
+                                (operators::is_true(*a) || this->defined(at.c, lane));
+        defined_values |= static_cast<std::uint64_t>(is_defined) << (first + i);
+      }
       *y = value;
     }
   }
   if constexpr (kBoolean) {
-    defined = kEveryLane;
-  } else if constexpr (std::is_same_v<Operator, operators::IfThenElse>) {
-    defined =
-        where(at, lanes, [&](const Interval& condition, const Interval&, const Interval&, std::size_t lane) {
-          return (operators::is_false(condition) || this->defined(at.b, lane)) &&
-                 (operators::is_true(condition) || this->defined(at.c, lane));
-        });
-  } else if constexpr (!operators::is_total<Operator>) {
-    defined &= where(at, lanes, [](const Interval& a, const Interval& b, const Interval& c, std::size_t) {
-      return Operator::defined(a, b, c);
-    });
+    defined_[at.result] = kEveryLane;
+  } else if constexpr (kChoice) {
+    defined_[at.result] = by_lane(of_y, defined_values, lanes);
+  } else if constexpr (kPartial) {
+    defined_[at.result] = operands_defined & by_lane(of_y, defined_values, lanes);
+  } else {
+    defined_[at.result] = operands_defined;
   }
-  defined_[at.result] = defined;
 }
 
-// The lanes where a condition on an instruction's operands holds.
-template <class Condition>
-std::uint64_t Evaluation::where(const Program::Instruction& at, std::size_t lanes,
-                                Condition condition) const {
-  const bool uniform = places_[at.result].mask == 0;
+// A bit a lane of what has a bit a value.
+std::uint64_t Evaluation::by_lane(const Place& at, std::uint64_t values, std::size_t lanes) {
+  if (at.mask == 0) return (values & 1U) != 0 ? kEveryLane : 0;
+  if (at.shift == 0 && at.mask + 1U >= lanes) return values;
   std::uint64_t found = 0;
-  for (std::size_t lane = 0; lane < (uniform ? 1 : lanes); ++lane) {
-    const bool holds = condition(get(at.a, lane), get(at.b, lane), get(at.c, lane), lane);
-    found |= static_cast<std::uint64_t>(holds) << lane;
-  }
-  return uniform && found != 0 ? kEveryLane : found;
+  for (std::size_t lane = 0; lane < lanes; ++lane)
+    found |= (values >> (place(at, lane) - at.offset) & 1U) << lane;
+  return found;
 }
 
 template <bool kCore>

@@ -74,6 +74,12 @@ class Evaluation {
     return registers_[place(reg, lane)];
   }
 
+  /// What get() gives, lane after lane, of a register with a value a lane: an input or the result of an
+  /// instruction, in an evaluation of several lanes.
+  [[nodiscard]] std::span<Interval> row(std::uint32_t reg) {
+    return {&registers_[places_[reg].offset], places_[reg].mask + std::size_t{1}};
+  }
+
   /// Evaluates the first `lanes` lanes: every register is an enclosure of its node on the inputs' box, and
   /// defined() tells whether the node is defined on all of it.
   void forward(std::size_t lanes = 1) { run_forward<false>(0, program_->code().size(), lanes); }
@@ -144,9 +150,7 @@ class Evaluation {
   void run_forward(std::size_t first, std::size_t last, std::size_t lanes);
   template <class Operator, bool kBoolean, bool kRelation, bool kCore>
   void forward_one(const Program::Instruction& at, std::size_t lanes);
-  template <class Condition>
-  [[nodiscard]] std::uint64_t where(const Program::Instruction& at, std::size_t lanes,
-                                    Condition condition) const;
+  [[nodiscard]] static std::uint64_t by_lane(const Place& at, std::uint64_t values, std::size_t lanes);
   template <class Operator, bool kBoolean, bool kRelation>
   bool backward_one(const Program::Instruction& at);
 

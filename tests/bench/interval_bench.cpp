@@ -5,6 +5,7 @@
 #include <benchmark/benchmark.h>
 #include <mpfi.h>
 
+#include <algorithm>
 #include <boost/numeric/interval.hpp>
 #include <chrono>
 #include <cmath>
@@ -39,6 +40,12 @@ struct Arrays {
   }
   [[nodiscard]] hcsp::batch::Intervals in() const { return {lo.data(), hi.data()}; }
   hcsp::batch::Results out() { return {lo.data(), hi.data()}; }
+  /// As the engine's domains hold them.
+  [[nodiscard]] std::vector<Interval> intervals() const {
+    std::vector<Interval> result;
+    for (std::size_t i = 0; i < lo.size(); ++i) result.push_back(Interval::raw(lo[i], hi[i]));
+    return result;
+  }
 };
 
 struct Operation {
@@ -68,30 +75,36 @@ void measure(benchmark::State& state, const std::string& name, std::size_t n, bo
   state.counters["ratio"] = each / plain[key];
 }
 
+/// The bytecode of one operation, on registers that hold the operands, or with the copies of operands into
+/// registers and of results out of them.
 void run_bytecode(benchmark::State& state, const Operation& operation, const Arrays& a, const Arrays& b,
-                  Arrays& result) {
-  const std::size_t n = a.lo.size();
+                  bool with_copies) {
+  constexpr std::size_t kLanes = Evaluation::kMaxLanes;
+  const std::vector<Interval> operands[] = {a.intervals(), b.intervals()};
+  std::vector<Interval> result = operands[0];
+  const std::size_t n = result.size();
   hcsp::Dag dag;
   const auto input = [&](hcsp::VariableId id) {
     return Expr(dag, dag.input({hcsp::Input::Kind::real, id, 0, 0}));
   };
   const Expr root = operation.expression(input(0), input(1));
   const hcsp::Program program(dag, {root.node()});
-  Evaluation evaluation(program, Evaluation::kMaxLanes);
+  const std::size_t blocks = (n + kLanes - 1) / kLanes;
+  std::vector<Evaluation> evaluations(with_copies ? 1 : blocks, Evaluation(program, kLanes));
+  const auto load = [&](Evaluation& evaluation, std::size_t begin) {
+    for (std::uint32_t reg = 0; reg < program.inputs().size(); ++reg)
+      std::copy_n(&operands[program.inputs()[reg].variable][begin], std::min(kLanes, n - begin),
+                  evaluation.row(reg).begin());
+  };
+  for (std::size_t k = 0; k < evaluations.size(); ++k) load(evaluations[k], k * kLanes);
   const hcsp::RoundUpward guard;
   measure(state, operation.name, n, false, [&] {
-    for (std::size_t begin = 0; begin < n; begin += Evaluation::kMaxLanes) {
-      const std::size_t lanes = std::min(Evaluation::kMaxLanes, n - begin);
-      for (std::uint32_t reg = 0; reg < program.inputs().size(); ++reg) {
-        const Arrays& from = program.inputs()[reg].variable == 0 ? a : b;
-        for (std::size_t i = 0; i < lanes; ++i)
-          evaluation.set(reg, Interval::raw(from.lo[begin + i], from.hi[begin + i]), i);
-      }
+    for (std::size_t block = 0; block < blocks; ++block) {
+      const std::size_t begin = block * kLanes, lanes = std::min(kLanes, n - begin);
+      Evaluation& evaluation = evaluations[with_copies ? 0 : block];
+      if (with_copies) load(evaluation, begin);
       evaluation.forward(lanes);
-      for (std::size_t i = 0; i < lanes; ++i) {
-        result.lo[begin + i] = evaluation.get(program.root(), i).lo();
-        result.hi[begin + i] = evaluation.get(program.root(), i).hi();
-      }
+      if (with_copies) std::copy_n(evaluation.row(program.root()).begin(), lanes, &result[begin]);
     }
   });
 }
@@ -133,6 +146,8 @@ auto plain_loop(Each each) {
   };
 }
 
+using Batch2 = void (*)(std::size_t, hcsp::batch::Intervals, hcsp::batch::Intervals, hcsp::batch::Results);
+Batch2 of_two(Batch2 f) { return f; }
 using Batch1 = void (*)(std::size_t, hcsp::batch::Intervals, hcsp::batch::Results);
 auto of_one(Batch1 f) {
   return [f](std::size_t n, hcsp::batch::Intervals a, hcsp::batch::Intervals, hcsp::batch::Results result) {
@@ -152,11 +167,11 @@ std::vector<Operation> operations() {
   namespace batch = hcsp::batch;
   const std::function<Expr(Expr, Expr)> none;
   return {
-      {"add", false, plain_loop([](double a, double b) { return a + b; }), batch::add,
+      {"add", false, plain_loop([](double a, double b) { return a + b; }), of_two(batch::add),
        [](Expr a, Expr b) { return a + b; }, mpfi_add},
-      {"mul", false, plain_loop([](double a, double b) { return a * b; }), batch::mul,
+      {"mul", false, plain_loop([](double a, double b) { return a * b; }), of_two(batch::mul),
        [](Expr a, Expr b) { return a * b; }, mpfi_mul},
-      {"div", false, plain_loop([](double a, double b) { return a / b; }), batch::div,
+      {"div", false, plain_loop([](double a, double b) { return a / b; }), of_two(batch::div),
        [](Expr a, Expr b) { return a / b; }, mpfi_div},
       {"sqr", false, plain_loop([](double a, double) { return a * a; }), of_one(batch::sqr),
        [](Expr a, Expr) { return sqr(a); }, of_one(mpfi_sqr)},
@@ -192,10 +207,9 @@ void add_all(const Operation& operation, std::size_t n) {
     measure(state, name, n, false, [&] { operation.batch(n, a.in(), b.in(), result.out()); });
   });
   if (operation.expression)
-    add(name + "/bytecode" + size, [=](benchmark::State& state) {
-      Arrays result = a;
-      run_bytecode(state, operation, a, b, result);
-    });
+    for (const bool with_copies : {false, true})
+      add(name + (with_copies ? "/bytecode_with_copies" : "/bytecode") + size,
+          [=](benchmark::State& state) { run_bytecode(state, operation, a, b, with_copies); });
   add(name + "/mpfi" + size, [=](benchmark::State& state) { run_mpfi(state, operation, a, b); });
   static const std::map<std::string, std::function<Peer(Peer, Peer)>> peers{
       {"add", [](Peer x, Peer y) { return x + y; }},

@@ -65,23 +65,61 @@ void expect_the_bits_of(Interval (*one)(const Interval&),
       [many](std::size_t n, batch::Intervals a, batch::Intervals, batch::Results r) { many(n, a, r); });
 }
 
+/// As `many` on arrays of bounds, by a form on arrays of intervals.
+template <class Form>
+void through_intervals(std::size_t n, batch::Intervals a, batch::Intervals b, batch::Results result,
+                       const Form& form) {
+  std::vector<Interval> left, right;
+  for (std::size_t i = 0; i < n; ++i) {
+    left.push_back(Interval::raw(a.lo[i], a.hi[i]));
+    right.push_back(Interval::raw(b.lo[i], b.hi[i]));
+  }
+  form(n, left.data(), right.data(), left.data());
+  for (std::size_t i = 0; i < n; ++i) {
+    result.lo[i] = left[i].lo();
+    result.hi[i] = left[i].hi();
+  }
+}
+
+using Binary = Interval (*)(const Interval&, const Interval&);
+using Unary = Interval (*)(const Interval&);
+
+/// Both forms: of arrays of bounds, of arrays of intervals.
+void expect_the_bits_of(Binary one,
+                        void (*many)(std::size_t, batch::Intervals, batch::Intervals, batch::Results),
+                        void (*row)(std::size_t, const Interval*, const Interval*, Interval*)) {
+  expect_the_bits_of(One(one), Many(many));
+  expect_the_bits_of(One(one), [row](std::size_t n, batch::Intervals a, batch::Intervals b,
+                                     batch::Results result) { through_intervals(n, a, b, result, row); });
+}
+
+void expect_the_bits_of(Unary one, void (*many)(std::size_t, batch::Intervals, batch::Results),
+                        void (*row)(std::size_t, const Interval*, Interval*)) {
+  expect_the_bits_of(one, many);
+  expect_the_bits_of([one](const Interval& a, const Interval&) { return one(a); },
+                     [row](std::size_t n, batch::Intervals a, batch::Intervals b, batch::Results result) {
+                       const auto form = [row](std::size_t size, const Interval* x, const Interval*,
+                                               Interval* y) { row(size, x, y); };
+                       through_intervals(n, a, b, result, form);
+                     });
+}
+
 TEST(Batch, Arithmetic) {
-  expect_the_bits_of([](const Interval& a) { return -a; }, batch::neg);
-  expect_the_bits_of([](const Interval& a, const Interval& b) { return a + b; }, batch::add);
-  expect_the_bits_of([](const Interval& a, const Interval& b) { return a - b; }, batch::sub);
-  expect_the_bits_of([](const Interval& a, const Interval& b) { return a * b; }, batch::mul);
-  expect_the_bits_of([](const Interval& a, const Interval& b) { return a / b; }, batch::div);
-  expect_the_bits_of(sqr, batch::sqr);
-  expect_the_bits_of(sqrt, batch::sqrt);
+  expect_the_bits_of([](const Interval& a) { return -a; }, batch::neg, batch::neg);
+  expect_the_bits_of([](const Interval& a, const Interval& b) { return a + b; }, batch::add, batch::add);
+  expect_the_bits_of([](const Interval& a, const Interval& b) { return a - b; }, batch::sub, batch::sub);
+  expect_the_bits_of([](const Interval& a, const Interval& b) { return a * b; }, batch::mul, batch::mul);
+  expect_the_bits_of([](const Interval& a, const Interval& b) { return a / b; }, batch::div, batch::div);
+  expect_the_bits_of(sqr, batch::sqr, batch::sqr);
+  expect_the_bits_of(sqrt, batch::sqrt, batch::sqrt);
 }
 
 TEST(Batch, Bounds) {
-  using Binary = Interval (*)(const Interval&, const Interval&);
-  expect_the_bits_of(abs, batch::abs);
-  expect_the_bits_of(static_cast<Binary>(min), batch::min);
-  expect_the_bits_of(static_cast<Binary>(max), batch::max);
-  expect_the_bits_of(static_cast<Binary>(meet), batch::meet);
-  expect_the_bits_of(static_cast<Binary>(join), batch::join);
+  expect_the_bits_of(abs, batch::abs, batch::abs);
+  expect_the_bits_of(min, batch::min, batch::min);
+  expect_the_bits_of(max, batch::max, batch::max);
+  expect_the_bits_of(meet, batch::meet, batch::meet);
+  expect_the_bits_of(join, batch::join, batch::join);
 }
 
 TEST(Batch, Powers) {
@@ -93,12 +131,11 @@ TEST(Batch, Powers) {
 }
 
 TEST(Batch, ElementaryFunctions) {
-  using Binary = Interval (*)(const Interval&, const Interval&);
   expect_the_bits_of(exp, batch::exp);
   expect_the_bits_of(log, batch::log);
   expect_the_bits_of(sin, batch::sin);
   expect_the_bits_of(cos, batch::cos);
-  expect_the_bits_of(static_cast<Binary>(atan2), batch::atan2);
+  expect_the_bits_of(One(static_cast<Binary>(atan2)), batch::atan2);
 }
 
 }  // namespace
