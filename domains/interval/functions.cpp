@@ -154,6 +154,14 @@ double greatest_fma(const Interval& a, const Interval& b, double c) {
 
 }  // namespace
 
+Interval intersection(const Interval& a, const Interval& b) {
+  return upward([](const Interval& x, const Interval& y) { return meet(x, y); }, a, b);
+}
+
+Interval convex_hull(const Interval& a, const Interval& b) {
+  return upward([](const Interval& x, const Interval& y) { return join(x, y); }, a, b);
+}
+
 Interval fma(const Interval& a, const Interval& b, const Interval& c) {
   return upward(
       [](const Interval& x, const Interval& y, const Interval& z) {

@@ -11,6 +11,10 @@ namespace hcsp {
 Interval recip(const Interval& a);
 /// a b + c, rounded once.
 Interval fma(const Interval& a, const Interval& b, const Interval& c);
+/// Intersection and convex hull (IEEE 1788-2015, 9.3): meet and join of interval.h, which compare as the
+/// thread does, for callers that have subnormal numbers flushed.
+Interval intersection(const Interval& a, const Interval& b);
+Interval convex_hull(const Interval& a, const Interval& b);
 /// a^n; a^0 is 1 everywhere.
 Interval pown(const Interval& a, int n);
 /// a^b = exp(b log a) for a > 0, and 0 for a == 0 and b > 0.

@@ -90,7 +90,8 @@ class Interval {
 };
 
 // The lattice of intervals, ordered by inclusion. Comparisons only: no rounding is involved. They see
-// denormals as the thread does: with denormals-are-zero set by the caller, hold a guard of rounding.h.
+// denormals as the thread does: where the caller may have set denormals-are-zero, take intersection and
+// convex_hull (functions.h), subset, equal and is_member (numeric.h), or hold a guard of rounding.h.
 inline Interval meet(const Interval& a, const Interval& b) {
   const Bounds met = least(a.bounds(), b.bounds());
   return Interval::of_bounds(-swapped(met) > met ? Interval::empty().bounds() : met);

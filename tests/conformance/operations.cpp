@@ -89,10 +89,8 @@ void add_sets_and_reverses(Table& table) {
     table[name] = {[f](const Operands& x) { return decorated(trivially(f, interval(x, 0), interval(x, 1))); },
                    is_reverse};
   };
-  of_two(
-      "intersection", [](const I& a, const I& b) { return meet(a, b); }, false);
-  of_two(
-      "convexHull", [](const I& a, const I& b) { return join(a, b); }, false);
+  of_two("intersection", intersection, false);
+  of_two("convexHull", convex_hull, false);
   of_two("cancelPlus", cancel_plus, false);
   of_two("cancelMinus", cancel_minus, false);
   const auto reverse = [&](const std::string& name, I (*f)(const I&, const I&)) {

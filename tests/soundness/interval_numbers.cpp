@@ -8,6 +8,7 @@
 #include <limits>
 #include <utility>
 
+#include "domains/interval/functions.h"
 #include "domains/interval/numeric.h"
 #include "domains/interval/reverse.h"
 #include "tests/soundness/interval_sources.h"
@@ -143,7 +144,7 @@ Interval exact_join(I a, I b) {
   return Interval::raw(x.lo < y.lo ? a.lo() : b.lo(), x.hi > y.hi ? a.hi() : b.hi());
 }
 
-Operation lattice(std::string name, Interval (*f)(I, I), Interval (*exact)(I, I)) {
+Operation lattice(std::string name, Interval (*f)(I, I), Interval (*exact)(I, I), bool flushes) {
   const Direct meaning{2, [exact](const Arguments& a) { return exact(a[0], a[1]); }, {}, {}};
   Operation result{std::move(name),
                    2,
@@ -153,7 +154,7 @@ Operation lattice(std::string name, Interval (*f)(I, I), Interval (*exact)(I, I)
                      return Outcome{f(a[0], a[1]), {}};
                    },
                    [meaning](Draw& draw, std::size_t) { return direct_source(meaning, draw); }};
-  result.flushes = false;
+  result.flushes = flushes;
   return result;
 }
 
@@ -175,8 +176,10 @@ void add_numbers(std::vector<Operation>& all) {
   all.push_back(comparison("precedes", precedes, exact_precedes));
   all.push_back(comparison("strict_precedes", strict_precedes, exact_strict_precedes));
   all.push_back(comparison("disjoint", disjoint, exact_disjoint));
-  all.push_back(lattice("meet", meet, exact_meet));
-  all.push_back(lattice("join", join, exact_join));
+  all.push_back(lattice("meet", meet, exact_meet, false));
+  all.push_back(lattice("join", join, exact_join, false));
+  all.push_back(lattice("intersection", intersection, exact_meet, true));
+  all.push_back(lattice("convex_hull", convex_hull, exact_join, true));
 }
 
 }  // namespace hcsp::campaign
