@@ -25,6 +25,7 @@ struct Problem::Impl {
   std::shared_ptr<std::set<VariableId>> sampled = std::make_shared<std::set<VariableId>>();
   std::shared_ptr<Motions> motions = std::make_shared<Motions>();
   std::map<VariableId, std::vector<Reading>> readings;
+  std::map<VariableId, Shape> shapes;  // where they differ from the default
   bool fast_paths = true;
 
   [[nodiscard]] Inputs::Context context() const { return {line, sampled, motions}; }
@@ -111,6 +112,25 @@ SetVariable Problem::set(std::string name, std::size_t dim, double precision,
   return {impl_->add(name, SetInterval(dim, precision, frame), DomainKind::set), dim};
 }
 
+VectorVariable Problem::matrix(std::string name, std::size_t rows, const Box& domain) {
+  const auto components = static_cast<std::size_t>(domain.dim());
+  require(rows > 0 && components > 0 && components % rows == 0, "Problem: {} components in {} rows",
+          components, rows);
+  const VectorVariable matrix = vector(std::move(name), domain);
+  impl_->shapes[matrix.id].columns = components / rows;
+  return matrix;
+}
+
+void Problem::place_in_array(VariableId element, std::string array, std::vector<int> indices) {
+  impl_->shapes[element].array = std::move(array);
+  impl_->shapes[element].indices = std::move(indices);
+}
+
+Expr Problem::component(VectorVariable x, std::size_t i) {
+  require(i < x.dim, "Problem: component {} of {}", i + 1, x.dim);
+  return impl_->input(Input::Kind::vector, x.id, i);
+}
+
 Expr Problem::constant(const Interval& value) { return {impl_->dag, impl_->dag.constant(value)}; }
 Expr Problem::operator()(RealVariable x) { return impl_->input(Input::Kind::real, x.id, 0); }
 VectorExpr Problem::operator()(VectorVariable x) { return impl_->inputs(Input::Kind::vector, x.id, x.dim); }
@@ -185,7 +205,8 @@ const std::string& Problem::name() const { return impl_->name; }
 const ContractorGraph& Problem::graph() const { return impl_->graph; }
 
 Result Problem::propagate(const PropagationOptions& options) {
-  return run_problem({impl_->name, impl_->graph, impl_->kinds, impl_->line, impl_->readings}, options);
+  return run_problem({impl_->name, impl_->graph, impl_->kinds, impl_->line, impl_->readings, impl_->shapes},
+                     options);
 }
 
 }  // namespace hcsp

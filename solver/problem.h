@@ -62,6 +62,10 @@ class Problem {
   // constraint.
   RealVariable real(std::string name, const Interval& domain = {});
   VectorVariable vector(std::string name, const Box& domain);
+  /// A matrix, as the vector of its components row after row.
+  VectorVariable matrix(std::string name, std::size_t rows, const Box& domain);
+  /// Declares that an unknown is an element of an array, at these indices: results present arrays as one.
+  void place_in_array(VariableId element, std::string array, std::vector<int> indices);
   /// The one time line of the problem; to be set before the first tube.
   void set_time_line(TimeLine line);
   [[nodiscard]] const std::shared_ptr<const TimeLine>& time_line() const;
@@ -76,6 +80,7 @@ class Problem {
   Expr constant(const Interval& value);
   Expr operator()(RealVariable x);
   VectorExpr operator()(VectorVariable x);
+  Expr component(VectorVariable x, std::size_t i);
   /// The tube at the time at hand.
   VectorExpr operator()(TubeVariable x);
   /// The tube at an instant of the time line; std::invalid_argument if t is none.

@@ -28,7 +28,10 @@ std::vector<ResultVariable> declared_domains(const ProblemView& problem, const P
   std::vector<ResultVariable> variables;
   for (VariableId id = 0; id < problem.kinds.size(); ++id) {
     const auto& variable = problem.graph.variable(id);
-    if (!variable.hidden()) variables.push_back({variable.name(), domain_of(problem, run, id)});
+    if (variable.hidden()) continue;
+    const auto found = problem.shapes.find(id);
+    variables.push_back({variable.name(), domain_of(problem, run, id),
+                         found == problem.shapes.end() ? Shape{} : found->second});
   }
   return variables;
 }

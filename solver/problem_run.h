@@ -20,6 +20,7 @@ struct ProblemView {
   const std::vector<DomainKind>& kinds;  // by variable
   const std::shared_ptr<const TimeLine>& line;
   const std::map<VariableId, std::vector<Reading>>& readings;
+  const std::map<VariableId, Shape>& shapes;
 };
 
 Result run_problem(const ProblemView& problem, const PropagationOptions& options);

@@ -18,6 +18,20 @@ std::string_view to_string(Status status) {
   return "";
 }
 
+std::vector<const ResultVariable*> select(const std::vector<ResultVariable>& variables,
+                                          const std::vector<std::string>& names) {
+  std::vector<const ResultVariable*> selected;
+  for (const std::string& name : names) {
+    for (const ResultVariable& variable : variables) {
+      if (variable.name == name || variable.shape.array == name) selected.push_back(&variable);
+    }
+  }
+  if (names.empty()) {
+    for (const ResultVariable& variable : variables) selected.push_back(&variable);
+  }
+  return selected;
+}
+
 bool ResultVariable::is_empty() const {
   return std::visit([](const auto& d) { return d.is_empty(); }, domain);
 }

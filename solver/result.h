@@ -24,11 +24,23 @@ std::string_view to_string(Status status);
 
 using Domain = std::variant<Interval, Box, Tube, SetInterval>;
 
+/// How a result writes an unknown down, beyond its domain.
+struct Shape {
+  std::size_t columns = 0;   ///< of a matrix; 0 of anything else
+  std::string array;         ///< the array that it is an element of, if any
+  std::vector<int> indices;  ///< and where in it
+};
+
 struct ResultVariable {
   std::string name;
   Domain domain;
+  Shape shape = {};
   [[nodiscard]] bool is_empty() const;
 };
+
+/// The variables of these names in their order, an array's elements by its name; all where no name is given.
+std::vector<const ResultVariable*> select(const std::vector<ResultVariable>& variables,
+                                          const std::vector<std::string>& names);
 
 /// One reading of a sampled tube.
 struct SupportingReading {

@@ -51,7 +51,7 @@ std::span<const CatalogueEntry> data_entries() {
       CatalogueEntry{Code::stamp_twice, "column `{}`: the stamp {} is there twice",
                      "Two rows have one stamp: the readings may contradict each other. Remove one.",
                      HCSP_SAMPLED("twice.csv"), HCSP_SAMPLED("log.csv")},
-      CatalogueEntry{Code::row_outside, "the row {} is not in 1..{}",
+      CatalogueEntry{Code::row_outside, "the row {} is not between {} and {}",
                      "Rows are counted from 1, without the header.",
                      "data log = csv(\"log.csv\");\nlet a = log.t[1000];",
                      "data log = csv(\"log.csv\");\nlet a = log.t[1];"},

@@ -47,7 +47,7 @@ std::span<const CatalogueEntry> name_entries() {
                      "A relation compares component by component, so both sides have as many.",
                      "var x : real[2];\nconstraint x == (1, 2, 3);",
                      "var x : real[2];\nconstraint x == (1, 2);"},
-      CatalogueEntry{Code::index_outside, "the index {} is not in 1..{}", "Components are counted from 1.",
+      CatalogueEntry{Code::index_outside, "the index {} is not between {} and {}", "Components are counted from 1.",
                      "var x : real[2];\nconstraint x[0] == 1;", "var x : real[2];\nconstraint x[1] == 1;"},
       CatalogueEntry{Code::no_components, "{} has no components",
                      "Only vectors and columns of data have an index.",

@@ -67,7 +67,7 @@ Type Checker::check_function_call(const Expr& expr, const Symbol& function) {
   Type type = function.type;
   for (std::size_t i = 0; i < arguments.size(); ++i) {
     const Type& wanted = function.parameters[i];
-    if (arguments[i].kind != wanted.kind || arguments[i].dim != wanted.dim) {
+    if (arguments[i].kind != wanted.kind || !arguments[i].has_shape_of(wanted)) {
       diagnostics()
           .report(Code::wrong_type, expr.operands[i + 1]->range, describe(wanted), describe(arguments[i]))
           .note(fmt::format("it is `{}` of `{}`", function.as<FunctionItem>()->parameters[i].name.text,
@@ -136,6 +136,13 @@ Type Checker::check_built_in(const Expr& expr, const BuiltInFunction& function) 
     case BuiltIn::sum:
     case BuiltIn::prod:
       return check_vector_function(expr, function, arguments);
+    case BuiltIn::cross:
+    case BuiltIn::det:
+    case BuiltIn::inverse:
+    case BuiltIn::transpose:
+    case BuiltIn::zeros:
+    case BuiltIn::rot:
+      return check_matrix_function(expr, function, arguments);
     case BuiltIn::first:
     case BuiltIn::last:
     case BuiltIn::rows:
@@ -173,11 +180,12 @@ Type Checker::check_vector_function(const Expr& expr, const BuiltInFunction&,
                                     const std::vector<Type>& arguments) {
   Type type{Type::Kind::real, false, 0, Known::now, nullptr};
   for (std::size_t i = 0; i < arguments.size(); ++i) {
-    if (!arguments[i].is(Type::Kind::real) || arguments[i].dim == 0) {
+    const bool is_list = arguments[i].is(Type::Kind::real) && arguments[i].sizes().size() == 1;
+    if (!is_list) {
       diagnostics().report(Code::wrong_type, expr.operands[i + 1]->range, "a vector", describe(arguments[i]));
       return {};
     }
-    if (arguments[i].dim != arguments[0].dim) {
+    if (!arguments[i].has_shape_of(arguments[0])) {
       diagnostics().report(Code::sizes_differ, expr.range, describe(arguments[0]), describe(arguments[i]));
       return {};
     }

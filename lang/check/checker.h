@@ -44,11 +44,14 @@ class Checker {
   void check_solve(const SolveItem& item, const SourceRange& range);
   void check_show(const ShowItem& item);
   Type resolve(const TypeExpr& type);
+  std::optional<std::uint32_t> size_of(const Expr& size);
+  std::optional<Extent> extent_of(const Expr& range);
   /// Whether a value of type `found` may stand where `wanted` is declared; reports otherwise.
   bool require_domain(const Expr& value, const Type& found, const Type& wanted);
   bool require_constant(const Expr& expr, const Type& type);
+  /// Known by the time the model is compiled: it may use parameters of functions and bound whole numbers.
+  bool require_known(const Expr& expr, const Type& type);
   bool require_scalar(const Expr& expr, const Type& type);
-  bool refuse_kind(const TypeExpr& type, std::string_view what);
 
   // Expressions. `expr` is typed, recorded and returned; an error has been reported.
   Type check(const Expr& expr);
@@ -64,6 +67,7 @@ class Checker {
   Type check_comparison(const Expr& expr, const Type& a, const Type& b);
   Type check_membership(const Expr& expr, const Type& a, const Type& b);
   Type check_logic(const Expr& expr, const Type& a, const Type& b);
+  bool check_place(const Expr& written, const Type& base);
   Type check_tuple(const Expr& expr);
   Type check_interval(const Expr& expr);
   Type check_conditional(const Expr& expr);
@@ -80,6 +84,8 @@ class Checker {
                              const std::vector<Type>& arguments);
   Type check_vector_function(const Expr& expr, const BuiltInFunction& function,
                              const std::vector<Type>& arguments);
+  Type check_matrix_function(const Expr& expr, const BuiltInFunction& function,
+                             const std::vector<Type>& arguments);
   Type check_data_function(const Expr& expr, const BuiltInFunction& function,
                            const std::vector<Type>& arguments);
   Type check_given_function(const Expr& expr, const BuiltInFunction& function,
@@ -95,6 +101,12 @@ class Checker {
   Type check_set_relation(const Expr& expr, const BuiltInFunction& function);
   Type check_distance(const Expr& expr);
   Type check_quantified(const Expr& expr, std::uint32_t dim);
+  // Bound whole numbers (ranges.cpp).
+  Type check_range(const Expr& expr, const Type& a, const Type& b);
+  Type check_over_range(const Expr& expr, bool stated);
+  Type check_comprehension(const Expr& expr);
+  bool bind_ranges(const Expr& expr);
+  Type unbound(const Expr& expr, Type type);
   Type check_minimum(const Expr& expr);
   bool binds_time(const Expr& expr);
   [[nodiscard]] bool is_stated_side(const Expr& expr) const {
@@ -116,14 +128,23 @@ class Checker {
   bool pointwise_ = false;              // within what holds or is taken at one instant
   const Expr* stated_ = nullptr;        // a relation that a constraint states
   std::array<const Expr*, 2> sides_{};  // of a stated ==, which may be der or distance
+  std::uint32_t ranges_ = 0;            // how many bindings to whole numbers are open
   std::uint32_t depth_ = 0;
   bool solve_seen_ = false;
   bool model_seen_ = false;
 };
 
-/// The type of what is made of both: it varies if one does, and is known when both are.
+/// The type of a scalar or vector made of both: it varies if one does, and is known when both are.
 inline Type combined(Type::Kind kind, std::uint32_t dim, const Type& a, const Type& b) {
   return {kind, a.tube || b.tube, dim, std::min(a.known, b.known), nullptr};
+}
+/// The type of what is made of both and has the shape of `shape`, one of them.
+inline Type combined_as(const Type& shape, const Type& a, const Type& b) {
+  Type type = shape;
+  type.tube = a.tube || b.tube;
+  type.known = std::min(a.known, b.known);
+  type.whole = a.whole && b.whole;
+  return type;
 }
 
 }  // namespace hcsp::lang

@@ -57,6 +57,8 @@ Type Checker::check_kind(const Expr& expr) {
       return check_quantified(expr, 0);
     case ExprKind::conditional:
       return check_conditional(expr);
+    case ExprKind::comprehension:
+      return check_comprehension(expr);
   }
   return {};
 }
@@ -115,32 +117,43 @@ Type Checker::check_member(const Expr& expr) {
 }
 
 Type Checker::check_index(const Expr& expr) {
-  const Type base = check(*expr.operands[0]);
-  Type index;
-  for (std::size_t i = 1; i < expr.operands.size(); ++i) index = check(*expr.operands[i]);
-  if (base.is_error() || index.is_error()) return {};
+  Type base = check(*expr.operands[0]);
+  bool bad = base.is_error();
   const bool is_column = base.is(Type::Kind::column) && base.dim == 0;
-  if (!is_column && (!base.is(Type::Kind::real) || base.dim == 0)) {
+  const bool has_components =
+      base.is_array() || (base.dim != 0 && base.is(Type::Kind::real)) || is_column || bad;
+  if (!has_components) {
     diagnostics().report(Code::no_components, expr.operands[0]->range, describe(base));
-    return {};
+    bad = true;
   }
-  if (expr.operands.size() != 2) {
-    diagnostics().report(Code::wrong_argument_count, expr.range, "[]", "1 index", expr.operands.size() - 1);
-    return {};
+  const std::size_t most = is_column ? 1 : base.sizes().size();
+  if (!bad && expr.operands.size() - 1 > most) {
+    diagnostics().report(Code::wrong_argument_count, expr.range, "[]",
+                         most == 1 ? "1 index" : fmt::format("at most {} indices", most),
+                         expr.operands.size() - 1);
+    bad = true;
   }
-  const Expr& written = *expr.operands[1];
-  if (!require_scalar(written, index) || !require_constant(written, index)) return {};
+  for (std::size_t i = 1; i < expr.operands.size(); ++i) {
+    const Expr& written = *expr.operands[i];
+    const Type index = check(written);
+    if (index.is_error() || bad) {
+      bad = true;
+    } else {
+      bad = !require_scalar(written, index) || !require_known(written, index) ||
+            !check_place(written, base);
+      base = component_of(base);
+      base.known = std::min(base.known, index.known);
+    }
+  }
+  return bad ? Type{} : base;
+}
+
+// A number is looked at now; any other index when its value is wanted (evaluate), for it may stand under a
+// condition on constants that keeps it inside.
+bool Checker::check_place(const Expr& written, const Type& base) {
+  if (written.kind != ExprKind::number) return true;
   const auto place = constants_.whole(written);
-  if (!place) return {};
-  const std::size_t count = is_column ? base.data->table->rows() : base.dim;
-  if (*place < 1 || static_cast<std::size_t>(*place) > count) {
-    auto& diagnostic = diagnostics().report(is_column ? Code::row_outside : Code::index_outside,
-                                            written.range, *place, count);
-    if (*place == 0) diagnostic.note("indices start at 1");
-    return {};
-  }
-  if (is_column) return {Type::Kind::real, false, 0, Known::now, nullptr};
-  return {Type::Kind::real, base.tube, 0, base.known, nullptr};
+  return place && require_index(base, *place, written.range, diagnostics());
 }
 
 Type Checker::check_tuple(const Expr& expr) {
@@ -153,16 +166,20 @@ Type Checker::check_tuple(const Expr& expr) {
       bad = true;
       continue;
     }
-    if (component.dim != 0) {
-      not_supported(operand->range, "a matrix");
+    const bool is_column = component.is(Type::Kind::column);
+    const bool is_value = component.is(Type::Kind::real) || component.is(Type::Kind::domain);
+    if (!(is_column && component.dim == 0) &&
+        !(is_value && (component.is_scalar() || component.is_vector()))) {
+      diagnostics().report(Code::wrong_type, operand->range, "a number or a vector", describe(component));
       bad = true;
       continue;
     }
-    const bool is_column = component.is(Type::Kind::column);
-    if (!is_column && !component.is(Type::Kind::real) && !component.is(Type::Kind::domain)) {
-      diagnostics().report(Code::wrong_type, operand->range, "a number", describe(component));
+    // Vectors are the rows of a matrix.
+    if (operand == expr.operands.front()) type.columns = component.dim;
+    if (component.dim != type.columns) {
+      diagnostics().report(Code::sizes_differ, operand->range, describe(model_.type(*expr.operands.front())),
+                           describe(component));
       bad = true;
-      continue;
     }
     if (is_column && type.data != nullptr && type.data != component.data) {
       diagnostics().report(Code::rows_differ, operand->range, type.data->name.text,
@@ -225,13 +242,13 @@ Type Checker::check_conditional(const Expr& expr) {
     diagnostics().report(Code::wrong_type, expr.operands[2]->range, describe(then), describe(otherwise));
     return {};
   }
-  if (then.dim != otherwise.dim) {
+  if (!then.has_shape_of(otherwise)) {
     diagnostics().report(Code::sizes_differ, expr.range, describe(then), describe(otherwise));
     return {};
   }
-  Type type = combined(then.kind, then.dim, then, otherwise);
+  Type type = combined_as(then, then, otherwise);
   type.tube = type.tube || condition.tube;
-  type.known = Known::by_solving;
+  type.known = std::min(type.known, condition.known);
   if (type.is(Type::Kind::boolean) && type.tube && !pointwise_) {
     diagnostics().report(Code::logic_over_time, expr.range, "if");
     return {};

@@ -103,7 +103,9 @@ void Checker::ensure(Symbol& symbol) {
   std::swap(locals, locals_);
   const bool pointwise = std::exchange(pointwise_, false);
   const Expr* stated = std::exchange(stated_, nullptr);
+  const std::uint32_t ranges = std::exchange(ranges_, 0);
   check_symbol(symbol);
+  ranges_ = ranges;
   std::swap(locals, locals_);
   pointwise_ = pointwise;
   stated_ = stated;
@@ -128,27 +130,28 @@ void Checker::check_parameter(Symbol& symbol, const ParamItem& item) {
   if (!require_constant(*item.value, found)) return;
   Type wanted = found;
   if (item.type != nullptr) {
-    if (item.type->base == TypeExpr::Base::boolean) {
-      not_supported(item.type->range, "a param of type bool");
-      return;
-    }
     wanted = resolve(*item.type);
     if (wanted.is_error() || !require_domain(*item.value, found, wanted)) return;
     if (wanted.tube || wanted.is(Type::Kind::set)) {
       not_supported(item.type->range, "a parameter of this type");
       return;
     }
-    if (item.type->base == TypeExpr::Base::integer && found.is(Type::Kind::real) &&
-        !constants_.whole(*item.value))
+    if (wanted.whole && found.is(Type::Kind::real) && wanted.is_scalar() && !constants_.whole(*item.value))
       return;
-  } else if (found.tube || (!found.is(Type::Kind::real) && !found.is(Type::Kind::domain))) {
+    if (wanted.is_array() && !found.has_shape_of(wanted)) {
+      diagnostics().report(Code::wrong_type, item.value->range, describe(wanted), describe(found));
+      return;
+    }
+  } else if (found.tube || (!found.is(Type::Kind::real) && !found.is(Type::Kind::domain) &&
+                            !found.is(Type::Kind::boolean))) {
     diagnostics().report(Code::wrong_type, item.value->range, "a number, a vector or a domain",
                          describe(found));
     return;
   }
   symbol.unknown = found.is(Type::Kind::domain);
-  symbol.type = {Type::Kind::real, false, wanted.dim, symbol.unknown ? Known::by_solving : Known::now,
-                 nullptr};
+  symbol.type = wanted;
+  if (symbol.unknown) symbol.type.kind = Type::Kind::real;
+  symbol.type.known = symbol.unknown ? Known::by_solving : Known::now;
   model_.definitions.push_back(&symbol);
 }
 
@@ -230,7 +233,7 @@ void Checker::check_function(Symbol& symbol, const FunctionItem& item) {
   }
   const Type body = check(*item.body);
   if (!good || body.is_error() || symbol.state == Symbol::State::done) return;
-  if (body.kind != result.kind || body.dim != result.dim) {
+  if (body.kind != result.kind || !body.has_shape_of(result)) {
     diagnostics().report(Code::wrong_type, item.body->range, describe(result), describe(body));
     return;
   }
@@ -238,7 +241,7 @@ void Checker::check_function(Symbol& symbol, const FunctionItem& item) {
 }
 
 void Checker::check_given(Symbol& symbol, const GivenItem& item) {
-  const Type wanted = refuse_kind(*item.type, "a given") ? Type{} : resolve(*item.type);
+  const Type wanted = resolve(*item.type);
   symbol.type = wanted;
   const Type found = check(*item.value);
   if (wanted.is_error() || found.is_error() || !require_domain(*item.value, found, wanted)) return;
@@ -260,7 +263,9 @@ void Checker::check_variable(Symbol& symbol, const VarItem& item) {
       return;
     }
   }
-  const Type type = refuse_kind(*item.type, "an unknown") ? Type{} : resolve(*item.type);
+  Type type = resolve(*item.type);
+  if (type.whole || type.is(Type::Kind::boolean))
+    type = not_supported(item.type->range, type.whole ? "an unknown of type int" : "an unknown of type bool");
   if (item.precision != nullptr && !item.type->set) {
     diagnostics().report(Code::misplaced_precision, item.precision->range, describe(type));
   } else if (item.precision != nullptr) {
@@ -286,7 +291,7 @@ void Checker::check_let(Symbol& symbol, const LetItem& item) {
   if (found.is_error() || symbol.state == Symbol::State::done) return;
   if (item.type != nullptr) {
     if (wanted.is_error()) return;
-    if (found.kind != wanted.kind || found.dim != wanted.dim || (found.tube && !wanted.tube)) {
+    if (found.kind != wanted.kind || !found.has_shape_of(wanted) || (found.tube && !wanted.tube)) {
       diagnostics().report(Code::wrong_type, item.value->range, describe(wanted), describe(found));
       return;
     }

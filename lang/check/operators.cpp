@@ -5,6 +5,47 @@
 
 namespace hcsp::lang {
 
+namespace {
+
+/// The product of matrices and vectors; a vector is a row on the left and a column on the right.
+std::optional<Type> type_of_product(const Type& a, const Type& b) {
+  Type type = combined(Type::Kind::real, 0, a, b);
+  if (a.is_matrix() && b.is_matrix() && a.columns == b.dim) {
+    type.dim = a.dim;
+    type.columns = b.columns;
+    return type;
+  }
+  if (a.is_matrix() && b.is_vector() && a.columns == b.dim) {
+    type.dim = a.dim;
+    return type;
+  }
+  if (a.is_vector() && b.is_matrix() && a.dim == b.dim) {
+    type.dim = b.columns;
+    return type;
+  }
+  return {};
+}
+
+/// None where the operator does not apply.
+std::optional<Type> type_of_arithmetic(Operator op, const Type& a, const Type& b) {
+  if (a.is_array() || b.is_array()) return {};
+  switch (op) {
+    case Operator::multiply:
+      if (a.is_scalar()) return combined_as(b, a, b);
+      return b.is_scalar() ? combined_as(a, a, b) : type_of_product(a, b);
+    case Operator::divide: {
+      if (!b.is_scalar()) return {};
+      Type type = combined_as(a, a, b);
+      type.whole = false;
+      return type;
+    }
+    default:
+      return a.has_shape_of(b) ? std::optional(combined_as(a, a, b)) : std::nullopt;
+  }
+}
+
+}  // namespace
+
 Type Checker::wrong_operands(const Expr& expr, const Type& a, const Type& b) {
   diagnostics().report(Code::wrong_operands, expr.token, spelling(expr.op), describe(a), describe(b));
   return {};
@@ -32,7 +73,7 @@ Type Checker::check_unary(const Expr& expr) {
     return a;
   }
   if (a.is(Type::Kind::domain)) return domain_in_expression(expr);
-  if (a.is(Type::Kind::real) || a.is(Type::Kind::column)) return a;
+  if ((a.is(Type::Kind::real) && !a.is_array()) || a.is(Type::Kind::column)) return a;
   diagnostics().report(Code::wrong_type, expr.operands[0]->range, "a number", describe(a));
   return {};
 }
@@ -56,6 +97,7 @@ Type Checker::check_binary(const Expr& expr) {
     case Operator::power:
       return check_power(expr, a, b);
     case Operator::range:
+      return check_range(expr, a, b);
     case Operator::subset:
     case Operator::set_union:
     case Operator::set_symdiff:
@@ -73,23 +115,9 @@ Type Checker::check_arithmetic(const Expr& expr, const Type& a, const Type& b) {
   const auto is_operand = [](const Type& t) { return t.is(Type::Kind::real) || t.is(Type::Kind::column); };
   if (!is_operand(a) || !is_operand(b)) return wrong_operands(expr, a, b);
   if (columns && a.known != Known::now && b.known != Known::now) return wrong_operands(expr, a, b);
-  std::uint32_t dim = a.dim;
-  switch (expr.op) {
-    case Operator::multiply:
-      if (a.dim != 0 && b.dim != 0) {
-        wrong_operands(expr, a, b);
-        return {};
-      }
-      dim = std::max(a.dim, b.dim);
-      break;
-    case Operator::divide:
-      if (b.dim != 0) return wrong_operands(expr, a, b);
-      break;
-    default:
-      if (a.dim != b.dim) return wrong_operands(expr, a, b);
-      break;
-  }
-  if (!columns) return combined(Type::Kind::real, dim, a, b);
+  const auto made = type_of_arithmetic(expr.op, a, b);
+  if (!made) return wrong_operands(expr, a, b);
+  if (!columns) return *made;
   if (a.known != Known::now || b.known != Known::now) {
     diagnostics().report(Code::not_constant, expr.operands[a.known == Known::now ? 1 : 0]->range);
     return {};
@@ -98,7 +126,7 @@ Type Checker::check_arithmetic(const Expr& expr, const Type& a, const Type& b) {
     diagnostics().report(Code::rows_differ, expr.range, a.data->name.text, b.data->name.text);
     return {};
   }
-  Type type = combined(Type::Kind::column, dim, a, b);
+  Type type = combined(Type::Kind::column, made->dim, a, b);
   type.data = a.data != nullptr ? a.data : b.data;
   return type;
 }
@@ -146,7 +174,7 @@ Type Checker::check_comparison(const Expr& expr, const Type& a, const Type& b) {
   if (a.is(Type::Kind::domain) || b.is(Type::Kind::domain)) return domain_in_expression(expr);
   const bool sets = a.is(Type::Kind::set) && b.is(Type::Kind::set) && expr.op == Operator::equal;
   if (!sets && (!a.is(Type::Kind::real) || !b.is(Type::Kind::real))) return wrong_operands(expr, a, b);
-  if (a.dim != b.dim) {
+  if (!a.has_shape_of(b)) {
     diagnostics().report(Code::sizes_differ, expr.range, describe(a), describe(b));
     return {};
   }

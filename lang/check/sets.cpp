@@ -93,6 +93,8 @@ bool Checker::binds_time(const Expr& expr) {
 
 Type Checker::check_quantified(const Expr& expr, std::uint32_t dim) {
   const bool stated = std::exchange(stated_, nullptr) == &expr;
+  const bool is_set = expr.quantifier == Quantifier::set_union || expr.quantifier == Quantifier::set_inter;
+  if (!is_set && ranges_over_numbers(expr)) return check_over_range(expr, stated);
   switch (expr.quantifier) {
     case Quantifier::forall: {
       if (!binds_time(expr)) return {};

@@ -36,9 +36,13 @@ class Compiler {
   std::optional<TimeLine> line_of_stamps(const TimeItem& item, std::vector<double> further);
   bool check_instants();
   void make_unknown(const Symbol& symbol);
-  void make_tube(const Symbol& symbol);
-  void make_plain(const Symbol& symbol, const Expr* domain);
-  void make_set(const Symbol& symbol, const VarItem& item);
+  std::optional<Unknowns::Handle> make_element(const Symbol& symbol, const std::string& name,
+                                               std::size_t element);
+  std::optional<Unknowns::Handle> make_tube(const Symbol& symbol, const std::string& name);
+  std::optional<Unknowns::Handle> make_plain(const Symbol& symbol, const std::string& name,
+                                             std::size_t element);
+  std::optional<Unknowns::Handle> make_set(const Symbol& symbol, const std::string& name,
+                                           const VarItem& item);
   std::optional<double> precision_of(const Expr& expr);
   std::optional<Box> frame_of(const Expr& expr);
 
@@ -58,6 +62,8 @@ class Compiler {
   const Symbol* set_symbol(const Expr& expr);
   std::optional<SetBuilder> zone_of(const Expr& expr);
   std::string next_name();
+  void state_for_each(const Expr& expr);
+  hcsp::Expr relation_of(const Term& term);
 
   /// Runs an action on the Problem; what it refuses is reported at `range`.
   template <class Action>
@@ -69,7 +75,7 @@ class Compiler {
     }
   }
   [[nodiscard]] const SetVariable& set_of(const Symbol& symbol) const {
-    return std::get<SetVariable>(unknowns_.handles.at(&symbol));
+    return std::get<SetVariable>(unknowns_.handles.at(&symbol).front());
   }
 
   Model& model_;
@@ -78,8 +84,9 @@ class Compiler {
   Evaluator evaluator_;
   std::unordered_map<const Symbol*, TubePlan> plans_;
   std::unordered_map<const Symbol*, double> precisions_;
-  std::string constraint_;       // the name of the constraint at hand
-  std::set<std::string> names_;  // of all constraints
+  std::unordered_map<const Expr*, std::optional<Box>> domains_;  // as they were stated
+  std::string constraint_;                                       // the name of the constraint at hand
+  std::unordered_map<std::string, int> names_;  // of all constraints: how often they were asked for
 };
 
 }  // namespace hcsp::lang

@@ -19,8 +19,7 @@ void Compiler::compile_constraint(const ConstraintItem& item) {
 // A constraint that is the conjunction of several contractors numbers them.
 std::string Compiler::next_name() {
   std::string name = constraint_;
-  for (int k = 2; names_.contains(name); ++k) name = fmt::format("{}.{}", constraint_, k);
-  names_.insert(name);
+  while (++names_[name] > 1) name = fmt::format("{}.{}", constraint_, names_[constraint_]);
   return name;
 }
 
@@ -31,12 +30,13 @@ bool Compiler::calls(const Expr& expr, BuiltIn function) const {
 // Whether a relation is between reals alone: an expression, however deep.
 bool Compiler::is_plain(const Expr& written) const {
   const Expr& expr = model_.unfold(written);
-  if (expr.kind == ExprKind::quantified) return false;
+  if (expr.kind == ExprKind::quantified)
+    return ranges_over_numbers(expr) && expr.quantifier != Quantifier::forall;
   if (calls(expr, BuiltIn::disjoint) || calls(expr, BuiltIn::meets)) return false;
   if (expr.kind != ExprKind::binary) return true;
   if (expr.op == Operator::logical_and) return is_plain(*expr.operands[0]) && is_plain(*expr.operands[1]);
   return std::none_of(expr.operands.begin(), expr.operands.end(), [&](const Expr* side) {
-    const bool is_minimum = side->kind == ExprKind::quantified;
+    const bool is_minimum = side->kind == ExprKind::quantified && !ranges_over_numbers(*side);
     return is_minimum || calls(*side, BuiltIn::der) || calls(*side, BuiltIn::distance) ||
            model_.type(*side).is(Type::Kind::set);
   });
@@ -44,8 +44,10 @@ bool Compiler::is_plain(const Expr& written) const {
 
 void Compiler::state(const Expr& written) {
   const Expr& expr = model_.unfold(written);
-  if (expr.kind == ExprKind::quantified)
+  if (expr.kind == ExprKind::quantified && expr.quantifier == Quantifier::forall) {
+    if (ranges_over_numbers(expr)) return state_for_each(expr);
     return state(*expr.operands[0]);  // forall(t): every relation holds then
+  }
   if (is_plain(expr)) return state_relation(expr);
   if (expr.kind == ExprKind::binary && expr.op == Operator::logical_and) {
     state(*expr.operands[0]);
@@ -57,11 +59,29 @@ void Compiler::state(const Expr& written) {
   if (!state_equality(expr)) model_.diagnostics().report(Code::not_supported, expr.range, "this relation");
 }
 
+// One constraint a value, called name[1, 2].
+void Compiler::state_for_each(const Expr& expr) {
+  const std::string outer = constraint_;
+  evaluator_.for_each(expr, [&](const std::vector<int>& at) {
+    constraint_ = fmt::format("{}[{}]", outer, fmt::join(at, ", "));
+    state(*expr.operands[0]);
+    return !model_.diagnostics().any();
+  });
+  constraint_ = outer;
+}
+
 void Compiler::state_relation(const Expr& expr) {
   const Value relation = evaluator_.value(expr);
   if (relation.empty()) return;
-  guarded(expr.range,
-          [&] { problem_->constrain(next_name(), Evaluator::expression(*problem_, relation.front())); });
+  const auto known = Evaluator::truth(relation.front());
+  if (known && *known) return;
+  guarded(expr.range, [&] { problem_->constrain(next_name(), relation_of(relation.front())); });
+}
+
+// A constant that is false is a relation that no unknowns satisfy.
+hcsp::Expr Compiler::relation_of(const Term& term) {
+  const hcsp::Expr expr = Evaluator::expression(*problem_, term);
+  return Evaluator::truth(term) ? expr == problem_->constant(Interval(1.0)) : expr;
 }
 
 bool Compiler::state_equality(const Expr& expr) {
@@ -73,7 +93,7 @@ bool Compiler::state_equality(const Expr& expr) {
       state_derivative(a, b);
       return true;
     }
-    if (calls(a, BuiltIn::distance) || a.kind == ExprKind::quantified) {
+    if (calls(a, BuiltIn::distance) || (a.kind == ExprKind::quantified && !ranges_over_numbers(a))) {
       if (model_.type(a).is(Type::Kind::real)) {
         state_range(a, b);
         return true;
@@ -92,7 +112,7 @@ void Compiler::state_derivative(const Expr& derivative, const Expr& value) {
   if (terms.empty()) return;
   VectorExpr f;
   for (const Term& term : terms) f.push_back(Evaluator::expression(*problem_, term));
-  const auto& tube = std::get<TubeVariable>(unknowns_.handles.at(symbol));
+  const auto& tube = std::get<TubeVariable>(unknowns_.handles.at(symbol).front());
   guarded(value.range, [&] { problem_->constrain_derivative(next_name(), tube, f); });
 }
 

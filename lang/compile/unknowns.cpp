@@ -153,57 +153,75 @@ bool Compiler::check_instants() {
 
 // ---- Unknowns.
 
+// Of an array one unknown an element, called x[1, 2], the last index fastest.
 void Compiler::make_unknown(const Symbol& symbol) {
-  guarded(symbol.name.range, [&] {
-    if (symbol.type.is(Type::Kind::set)) {
-      make_set(symbol, *symbol.as<VarItem>());
-    } else if (symbol.type.tube) {
-      make_tube(symbol);
-    } else {
-      make_plain(symbol, stated_domain(symbol));
+  std::vector<int> indices;
+  for (const Extent& extent : symbol.type.arrays) indices.push_back(extent.first);
+  const std::string name(symbol.name.text);
+  const std::size_t elements = symbol.type.terms() / symbol.type.components();
+  for (std::size_t element = 0; element < elements; ++element) {
+    const std::string own = indices.empty() ? name : fmt::format("{}[{}]", name, fmt::join(indices, ", "));
+    guarded(symbol.name.range, [&] {
+      const auto handle = make_element(symbol, own, element);
+      if (!handle) return;
+      unknowns_.handles[&symbol].push_back(*handle);
+      if (indices.empty()) return;
+      const VariableId id = std::visit([](const auto& variable) { return variable.id; }, *handle);
+      problem_->place_in_array(id, name, indices);
+    });
+    if (model_.diagnostics().any()) return;
+    for (std::size_t k = indices.size(); k-- > 0;) {
+      if (++indices[k] <= symbol.type.arrays[k].last) break;
+      indices[k] = symbol.type.arrays[k].first;
     }
-  });
+  }
 }
 
-void Compiler::make_tube(const Symbol& symbol) {
-  const std::string name(symbol.name.text);
+std::optional<Unknowns::Handle> Compiler::make_element(const Symbol& symbol, const std::string& name,
+                                                       std::size_t element) {
+  if (symbol.type.is(Type::Kind::set)) return make_set(symbol, name, *symbol.as<VarItem>());
+  if (symbol.type.tube) return make_tube(symbol, name);
+  return make_plain(symbol, name, element);
+}
+
+std::optional<Unknowns::Handle> Compiler::make_tube(const Symbol& symbol, const std::string& name) {
   const std::size_t bounds = problem_->time_line()->items() * symbol.type.components();
   if (bounds > kMostTubeBounds) {
     model_.diagnostics().report(
         Code::out_of_range, symbol.name.range,
         fmt::format("a tube of {} components and {} instants", symbol.type.components(),
                     problem_->time_line()->instants().size()));
-    return;
+    return {};
   }
   const auto plan = plans_.find(&symbol);
-  if (plan == plans_.end()) {
-    unknowns_.handles.emplace(&symbol, problem_->tube(name, symbol.type.components()));
-    return;
-  }
+  if (plan == plans_.end()) return problem_->tube(name, symbol.type.components());
   auto given = build_tube(model_, plan->second, problem_->time_line());
-  if (!given) return;
+  if (!given) return {};
   const TubeVariable tube = problem_->tube(name, given->domain);
   // Also when every reading is blank: the tube is then known nowhere, but it is known at its samples only.
   const bool is_sampled = std::any_of(plan->second.begin(), plan->second.end(), [](const TubePart& part) {
     return part.kind == TubePart::Kind::sampled;
   });
   if (is_sampled) problem_->set_readings(tube, std::move(given->readings));
-  unknowns_.handles.emplace(&symbol, tube);
+  return tube;
 }
 
-void Compiler::make_plain(const Symbol& symbol, const Expr* domain) {
-  const std::string name(symbol.name.text);
-  Box box(static_cast<Eigen::Index>(symbol.type.components()));
-  if (domain != nullptr) {
-    const auto stated = evaluator_.box(*domain);
-    if (!stated) return;
-    box = *stated;
+std::optional<Unknowns::Handle> Compiler::make_plain(const Symbol& symbol, const std::string& name,
+                                                     std::size_t element) {
+  const Type& type = symbol.type;
+  Box box(static_cast<Eigen::Index>(type.components()));
+  if (const Expr* domain = stated_domain(symbol)) {
+    // A domain of one element serves them all.
+    auto& stated = domains_[domain];
+    if (!stated) stated = evaluator_.box(*domain);
+    if (!stated) return {};
+    const bool is_of_all = static_cast<std::size_t>(stated->dim()) == type.terms();
+    const std::size_t first = is_of_all ? element * type.components() : 0;
+    for (Eigen::Index i = 0; i < box.dim(); ++i) box[i] = (*stated)[static_cast<Eigen::Index>(first) + i];
   }
-  if (symbol.type.dim == 0) {
-    unknowns_.handles.emplace(&symbol, problem_->real(name, box[0]));
-  } else {
-    unknowns_.handles.emplace(&symbol, problem_->vector(name, box));
-  }
+  if (type.is_matrix()) return problem_->matrix(name, type.dim, box);
+  if (type.dim != 0) return problem_->vector(name, box);
+  return problem_->real(name, box[0]);
 }
 
 std::optional<double> Compiler::precision_of(const Expr& expr) {
@@ -231,14 +249,14 @@ std::optional<Box> Compiler::frame_of(const Expr& expr) {
   return box;
 }
 
-void Compiler::make_set(const Symbol& symbol, const VarItem& item) {
+std::optional<Unknowns::Handle> Compiler::make_set(const Symbol& symbol, const std::string& name,
+                                                   const VarItem& item) {
   const auto precision = precision_of(*item.precision);
   std::optional<Box> frame;
   if (item.domain != nullptr) frame = frame_of(*item.domain);
-  if (!precision || (item.domain != nullptr && !frame)) return;
+  if (!precision || (item.domain != nullptr && !frame)) return {};
   precisions_.emplace(&symbol, *precision);
-  unknowns_.handles.emplace(&symbol,
-                            problem_->set(std::string(symbol.name.text), symbol.type.dim, *precision, frame));
+  return problem_->set(name, symbol.type.dim, *precision, frame);
 }
 
 }  // namespace hcsp::lang

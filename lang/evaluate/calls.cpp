@@ -103,6 +103,24 @@ Term Evaluator::scalar_function(BuiltIn function, const Term& a, const Term& b) 
   }
 }
 
+Term Evaluator::sum_of(const Value& terms) {
+  Term total = terms.front();
+  for (std::size_t i = 1; i < terms.size(); ++i) total = operate(Operator::add, total, terms[i]);
+  return total;
+}
+
+Term Evaluator::product_of(const Value& terms) {
+  Term product = terms.empty() ? Term(*Number::parse("1")) : terms.front();
+  for (std::size_t i = 1; i < terms.size(); ++i) product = operate(Operator::multiply, product, terms[i]);
+  return product;
+}
+
+Term Evaluator::extremum(BuiltIn function, const Value& terms) {
+  Term result = terms.front();
+  for (std::size_t i = 1; i < terms.size(); ++i) result = scalar_function(function, result, terms[i]);
+  return result;
+}
+
 Value Evaluator::built_in(const Expr& expr, BuiltIn function) {
   if (function == BuiltIn::first || function == BuiltIn::last || function == BuiltIn::rows) {
     return data_value(expr, function);
@@ -114,11 +132,6 @@ Value Evaluator::built_in(const Expr& expr, BuiltIn function) {
     if (arguments.back().empty()) return {};
   }
   const Value& a = arguments.front();
-  const auto sum_of = [&](const Value& terms) {
-    Term total = terms.front();
-    for (std::size_t i = 1; i < terms.size(); ++i) total = operate(Operator::add, total, terms[i]);
-    return total;
-  };
   switch (function) {
     case BuiltIn::norm: {
       Value squares;
@@ -126,29 +139,25 @@ Value Evaluator::built_in(const Expr& expr, BuiltIn function) {
       return defined(expr, {scalar_function(BuiltIn::sqrt, sum_of(squares))});
     }
     case BuiltIn::dot:
-      return arguments.size() < 2 ? Value{} : Value{sum_of([&] {
-        Value products;
-        for (std::size_t i = 0; i < a.size(); ++i) {
-          products.push_back(operate(Operator::multiply, a[i], arguments[1][i]));
-        }
-        return products;
-      }())};
+      return {dot(a, arguments[1])};
     case BuiltIn::sum:
       return {sum_of(a)};
-    case BuiltIn::prod: {
-      Term product = a.front();
-      for (std::size_t i = 1; i < a.size(); ++i) product = operate(Operator::multiply, product, a[i]);
-      return {product};
-    }
+    case BuiltIn::prod:
+      return {product_of(a)};
     case BuiltIn::min:
     case BuiltIn::max: {
       // Of one vector, its components; of several numbers, those.
       Value terms = a;
       for (std::size_t i = 1; i < arguments.size(); ++i) terms.push_back(arguments[i].front());
-      Term result = terms.front();
-      for (std::size_t i = 1; i < terms.size(); ++i) result = scalar_function(function, result, terms[i]);
-      return {result};
+      return {extremum(function, terms)};
     }
+    case BuiltIn::cross:
+    case BuiltIn::det:
+    case BuiltIn::inverse:
+    case BuiltIn::transpose:
+    case BuiltIn::zeros:
+    case BuiltIn::rot:
+      return matrix_function(expr, function, arguments);
     case BuiltIn::atan2:
       return defined(expr, {scalar_function(function, a.front(), arguments[1].front())});
     default:
@@ -164,12 +173,14 @@ Value Evaluator::data_value(const Expr& expr, BuiltIn function) {
   }
   const auto column = columns(argument);
   if (!column) return {};
-  const Column& data = column->front();
-  const std::size_t row = function == BuiltIn::first ? 0 : data.cells.size() - 1;
-  const CellValue& cell = data.cells[row];
+  return cell(column->front(), function == BuiltIn::first ? 0 : column->front().cells.size() - 1);
+}
+
+Value Evaluator::cell(const Column& column, std::size_t row) {
+  const CellValue& cell = column.cells[row];
   if (cell.kind == CellValue::Kind::number) return {cell.number};
   const Code code = cell.kind == CellValue::Kind::blank ? Code::blank_cell : Code::no_echo_here;
-  model_.diagnostics().report(code, data.table->range(row, data.index), data.name());
+  model_.diagnostics().report(code, column.table->range(row, column.index), column.name());
   return {};
 }
 

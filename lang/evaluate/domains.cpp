@@ -42,11 +42,11 @@ DomainValue Evaluator::domain(const Expr& written) {
       if (is_domain) {
         const DomainValue component = domain(*operand);
         if (component.empty()) return {};
-        all.push_back(component.front());
+        all.insert(all.end(), component.begin(), component.end());
       } else {
         const Value component = value(*operand);
         if (component.empty()) return {};
-        all.push_back({component.front(), component.front()});
+        for (const Term& term : component) all.push_back({term, term});
       }
     }
     return all;

@@ -30,7 +30,81 @@ hcsp::Expr compare(Operator op, const hcsp::Expr& a, const hcsp::Expr& b) {
   }
 }
 
+/// How a comparison of constants ends, where their enclosures tell.
+std::optional<bool> known_relation(Operator op, const Term& a, const Term& b) {
+  const auto* x = std::get_if<Number>(&a);
+  const auto* y = std::get_if<Number>(&b);
+  if (x == nullptr || y == nullptr) return {};
+  const Interval difference = (*x - *y).enclosure;
+  const bool is_zero = difference.lo() == 0 && difference.hi() == 0;
+  const bool below = difference.hi()<0, above = difference.lo()> 0;
+  if (!is_zero && !below && !above) return {};
+  switch (op) {
+    case Operator::equal:
+      return is_zero;
+    case Operator::not_equal:
+      return !is_zero;
+    case Operator::less:
+      return below;
+    case Operator::less_equal:
+      return !above;
+    case Operator::greater:
+      return above;
+    default:
+      return !below;
+  }
+}
+
+/// A connective whose first operand decides it: the second need not exist then.
+std::optional<Term> decided_by_first(Operator op, const Term& a) {
+  const auto known = is_logical(op) ? Evaluator::truth(a) : std::nullopt;
+  if (!known) return {};
+  if (op == Operator::logical_and && !*known) return boolean(false);
+  if (op == Operator::logical_or && *known) return boolean(true);
+  if (op == Operator::implies && !*known) return boolean(true);
+  return {};
+}
+
+/// A connective of which an operand is a constant.
+std::optional<Term> known_logic(Operator op, const Term& a, const Term& b) {
+  const auto p = Evaluator::truth(a), q = Evaluator::truth(b);
+  if (!p && !q) return {};
+  const auto negation = [](const Term& term) -> Term {
+    if (const auto known = Evaluator::truth(term)) return boolean(!*known);
+    return !std::get<hcsp::Expr>(term);
+  };
+  const bool known = p ? *p : *q;
+  const Term& other = p ? b : a;
+  switch (op) {
+    case Operator::logical_and:
+      return known ? other : boolean(false);
+    case Operator::logical_or:
+      return known ? boolean(true) : other;
+    case Operator::implies:
+      if (p) return known ? other : boolean(true);
+      return known ? boolean(true) : negation(other);
+    case Operator::iff:
+      return known ? other : negation(other);
+    default:
+      return known ? negation(other) : other;
+  }
+}
+
 }  // namespace
+
+Term boolean(bool truth) { return Number::of(Interval(truth ? 1.0 : 0.0)); }
+
+std::optional<bool> Evaluator::truth(const Term& term) {
+  const auto* number = std::get_if<Number>(&term);
+  if (number == nullptr || !number->enclosure.is_point()) return {};
+  return number->enclosure.lo() != 0;
+}
+
+Evaluator::Evaluator(Model& model)
+    : model_(model),
+      scratch_(std::make_unique<Problem>("constants")),
+      none_(Unknowns{*scratch_, {}}),
+      unknowns_(&*none_) {}
 
 // ---- Entries.
 
@@ -46,8 +120,9 @@ bool Evaluator::take_step(const Expr& expr) {
 std::optional<Number> Evaluator::number(const Expr& expr) {
   const Value found = value(expr);
   if (found.empty()) return {};
-  const auto* constant = std::get_if<Number>(&found.front());
-  return constant == nullptr ? std::nullopt : std::optional(*constant);
+  if (const auto* constant = std::get_if<Number>(&found.front())) return *constant;
+  model_.diagnostics().report(Code::not_constant, expr.range);
+  return {};
 }
 
 std::optional<int> Evaluator::whole(const Expr& expr) {
@@ -103,7 +178,7 @@ Value Evaluator::value_of_kind(const Expr& expr) {
       return written ? Value{*written} : Value{};
     }
     case ExprKind::boolean:
-      return {Number::of(Interval(expr.text == "true" ? 1.0 : 0.0))};
+      return {boolean(expr.text == "true")};
     case ExprKind::name:
       return name(expr);
     case ExprKind::index:
@@ -121,11 +196,14 @@ Value Evaluator::value_of_kind(const Expr& expr) {
       for (const Expr* operand : expr.operands) {
         const Value component = value(*operand);
         if (component.empty()) return {};
-        components.push_back(component.front());
+        components.insert(components.end(), component.begin(), component.end());
       }
       return components;
     }
+    case ExprKind::comprehension:
+      return comprehension(expr);
     case ExprKind::quantified:
+      if (ranges_over_numbers(expr)) return over_range(expr);
       return value(*expr.operands[0]);  // the body of a minimum over a set
     default:
       return {};
@@ -133,6 +211,15 @@ Value Evaluator::value_of_kind(const Expr& expr) {
 }
 
 // ---- Names.
+
+std::optional<hcsp::Expr> Unknowns::component(const Handle& handle, std::size_t i,
+                                              std::optional<double> instant) const {
+  if (const auto* real = std::get_if<RealVariable>(&handle)) return problem(*real);
+  if (const auto* vector = std::get_if<VectorVariable>(&handle)) return problem.component(*vector, i);
+  const auto* tube = std::get_if<TubeVariable>(&handle);
+  if (tube == nullptr) return {};
+  return instant ? problem.at(*tube, *instant)[i] : problem(*tube)[i];
+}
 
 Value Evaluator::name(const Expr& expr) {
   const Reference reference = model_.reference(expr);
@@ -155,38 +242,66 @@ Value Evaluator::symbol(const Symbol& symbol) {
 }
 
 Value Evaluator::unknown(const Symbol& symbol) {
-  Problem& problem = unknowns_->problem;
   if (&symbol == model_.time) {
     if (instant_) return {Number::of(Interval(*instant_))};
-    return {problem.time()};
+    return {unknowns_->problem.time()};
   }
+  return unknown_part(symbol, 0, symbol.type.terms());
+}
+
+// Of an unknown; of any other symbol nothing.
+Value Evaluator::unknown_part(const Symbol& symbol, std::size_t first, std::size_t count) {
   const auto found = unknowns_->handles.find(&symbol);
   if (found == unknowns_->handles.end()) return {};
-  VectorExpr components;
-  if (const auto* real = std::get_if<RealVariable>(&found->second)) components = {problem(*real)};
-  if (const auto* vector = std::get_if<VectorVariable>(&found->second)) components = problem(*vector);
-  if (const auto* tube = std::get_if<TubeVariable>(&found->second)) {
-    components = instant_ ? problem.at(*tube, *instant_) : problem(*tube);
+  const std::size_t each = symbol.type.components();
+  Value components;
+  for (std::size_t i = first; i < first + count; ++i) {
+    const auto component = unknowns_->component(found->second[i / each], i % each, instant_);
+    if (!component) return {};
+    components.emplace_back(*component);
   }
-  return {components.begin(), components.end()};
+  return components;
+}
+
+// Where the component that an index names starts, in components of that size.
+std::optional<std::size_t> Evaluator::offset(const Expr& written, const Type& base) {
+  const auto place = whole(written);
+  if (!place) return {};
+  if (!require_index(base, *place, written.range, model_.diagnostics())) return {};
+  return static_cast<std::size_t>(*place - index_range(base).first);
 }
 
 Value Evaluator::index(const Expr& expr) {
-  const auto place = whole(*expr.operands[1]);
-  if (!place) return {};
-  const auto at = static_cast<std::size_t>(*place - 1);
-  if (!model_.type(*expr.operands[0]).is(Type::Kind::column)) {
-    const Value base = value(*expr.operands[0]);
-    return base.empty() ? Value{} : Value{base.at(at)};
+  const Type base = model_.type(*expr.operands[0]);
+  if (base.is(Type::Kind::column)) {
+    const auto row = offset(*expr.operands[1], base);
+    const auto column = row ? columns(*expr.operands[0]) : std::nullopt;
+    return column ? cell(column->front(), *row) : Value{};
   }
-  const auto column = columns(*expr.operands[0]);
-  if (!column) return {};
-  const Column& data = column->front();
-  const CellValue& cell = data.cells.at(at);
-  if (cell.kind == CellValue::Kind::number) return {cell.number};
-  const Code code = cell.kind == CellValue::Kind::blank ? Code::blank_cell : Code::no_echo_here;
-  model_.diagnostics().report(code, data.table->range(at, data.index), data.name());
-  return {};
+  return part(expr, 0, model_.type(expr).terms());
+}
+
+Value Evaluator::part(const Expr& expr, std::size_t first, std::size_t count) {
+  if (expr.kind == ExprKind::index && !model_.type(*expr.operands[0]).is(Type::Kind::column)) {
+    Type type = model_.type(*expr.operands[0]);
+    for (std::size_t i = 1; i < expr.operands.size(); ++i) {
+      const auto at = offset(*expr.operands[i], type);
+      if (!at) return {};
+      type = component_of(type);
+      first += *at * type.terms();
+    }
+    return part(*expr.operands[0], first, count);
+  }
+  if (expr.kind == ExprKind::name) {
+    const Reference reference = model_.reference(expr);
+    if (reference.symbol != nullptr) {
+      if (auto found = unknown_part(*reference.symbol, first, count); !found.empty()) return found;
+    }
+  }
+  const Value whole_value = value(expr);
+  if (whole_value.empty()) return {};
+  const auto begin = whole_value.begin() + static_cast<std::ptrdiff_t>(first);
+  return {begin, begin + static_cast<std::ptrdiff_t>(count)};
 }
 
 // ---- Operators.
@@ -238,7 +353,10 @@ Value Evaluator::defined(const Expr& expr, Value value) {
 Value Evaluator::unary(const Expr& expr) {
   Value operand = value(*expr.operands[0]);
   if (operand.empty()) return {};
-  if (expr.op == Operator::logical_not) return {!expression(operand.front())};
+  if (expr.op == Operator::logical_not) {
+    if (const auto known = truth(operand.front())) return {boolean(!*known)};
+    return {!expression(operand.front())};
+  }
   for (Term& term : operand) term = negate(term);
   return operand;
 }
@@ -247,27 +365,37 @@ Value Evaluator::binary(const Expr& expr) {
   if (expr.op == Operator::power) return power(expr);
   if (expr.op == Operator::in) return membership(expr);
   const Value a = value(*expr.operands[0]);
+  if (a.empty()) return {};
+  if (const auto decided = decided_by_first(expr.op, a.front())) return {*decided};
   const Value b = value(*expr.operands[1]);
-  if (a.empty() || b.empty()) return {};
+  if (b.empty()) return {};
   if (is_comparison(expr.op)) return relation(expr, a, b);
-  if (!is_logical(expr.op)) return arithmetic(expr, a, b);
-  const hcsp::Expr p = expression(a.front());
-  const hcsp::Expr q = expression(b.front());
-  switch (expr.op) {
+  if (is_logical(expr.op)) return {connect(expr.op, a.front(), b.front())};
+  return arithmetic(expr, a, b);
+}
+
+Term Evaluator::connect(Operator op, const Term& a, const Term& b) {
+  if (const auto known = known_logic(op, a, b)) return *known;
+  const hcsp::Expr p = expression(a);
+  const hcsp::Expr q = expression(b);
+  switch (op) {
     case Operator::logical_and:
-      return {p && q};
+      return p && q;
     case Operator::logical_or:
-      return {p || q};
+      return p || q;
     case Operator::implies:
-      return {!p || q};
+      return !p || q;
     case Operator::iff:
-      return {(p && q) || (!p && !q)};
+      return (p && q) || (!p && !q);
     default:
-      return {(p && !q) || (!p && q)};
+      return (p && !q) || (!p && q);
   }
 }
 
 Value Evaluator::arithmetic(const Expr& expr, const Value& a, const Value& b) {
+  const Type &of_a = model_.type(*expr.operands[0]), &of_b = model_.type(*expr.operands[1]);
+  if (expr.op == Operator::multiply && !of_a.is_scalar() && !of_b.is_scalar() && of_a.is(Type::Kind::real))
+    return product(expr, a, b);
   Value result;
   for (std::size_t i = 0; i < std::max(a.size(), b.size()); ++i) {
     result.push_back(operate(expr.op, a[a.size() == 1 ? 0 : i], b[b.size() == 1 ? 0 : i]));
@@ -293,12 +421,17 @@ Value Evaluator::power(const Expr& expr) {
 }
 
 Value Evaluator::relation(const Expr& expr, const Value& a, const Value& b) {
+  const bool any = expr.op == Operator::not_equal;
   std::optional<hcsp::Expr> all;
   for (std::size_t i = 0; i < a.size(); ++i) {
+    if (const auto known = known_relation(expr.op, a[i], b[i])) {
+      if (*known == any) return {boolean(any)};
+      continue;
+    }
     const hcsp::Expr one = compare(expr.op, expression(a[i]), expression(b[i]));
-    all = !all ? one : expr.op == Operator::not_equal ? *all || one : *all && one;
+    all = !all ? one : any ? *all || one : *all && one;
   }
-  return {*all};
+  return {all ? Term(*all) : boolean(!any)};
 }
 
 Value Evaluator::membership(const Expr& expr) {
@@ -314,15 +447,18 @@ Value Evaluator::membership(const Expr& expr) {
     if (bounds[i].lo) add(*bounds[i].lo, point[i]);
     if (bounds[i].hi) add(point[i], *bounds[i].hi);
   }
-  if (!all) return {Number::of(Interval(1.0))};
+  if (!all) return {boolean(true)};
   return {*all};
 }
 
 Value Evaluator::conditional(const Expr& expr) {
   const Value condition = value(*expr.operands[0]);
+  if (condition.empty()) return {};
+  // What is not taken need not exist: x[i - 1] under `if i > 1`.
+  if (const auto known = truth(condition.front())) return value(*expr.operands[*known ? 1 : 2]);
   const Value then = value(*expr.operands[1]);
   const Value otherwise = value(*expr.operands[2]);
-  if (condition.empty() || then.empty() || otherwise.empty()) return {};
+  if (then.empty() || otherwise.empty()) return {};
   Value result;
   for (std::size_t i = 0; i < then.size(); ++i) {
     result.push_back(

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Evaluates checked expressions: folds constants, inlines functions and lets, and builds expressions of a
-// Problem for the rest. Without a Problem it evaluates what is known now, which is all that the checker asks
-// for.
+// Problem for the rest. Without one of the model it evaluates what is known now, which is all that the
+// checker asks for.
 #pragma once
 
 #include <array>
+#include <functional>
 #include <map>
+#include <memory>
 #include <optional>
 #include <unordered_map>
 
@@ -16,22 +18,35 @@
 
 namespace hcsp::lang {
 
+/// A Boolean constant.
+Term boolean(bool truth);
+
 /// The unknowns of a Problem by the symbol that they were declared as.
 struct Unknowns {
   using Handle = std::variant<RealVariable, VectorVariable, TubeVariable, SetVariable>;
   Problem& problem;
-  std::unordered_map<const Symbol*, Handle> handles;
+  /// One; of an array one an element, the last index fastest.
+  std::unordered_map<const Symbol*, std::vector<Handle>> handles;
+
+  /// The i-th component, of a tube at an instant or at the time at hand; none of a set.
+  [[nodiscard]] std::optional<hcsp::Expr> component(const Handle& handle, std::size_t i,
+                                                    std::optional<double> instant) const;
 };
 
 class Evaluator {
  public:
-  explicit Evaluator(Model& model) : model_(model) {}
+  explicit Evaluator(Model& model);
   Evaluator(Model& model, Unknowns& unknowns) : model_(model), unknowns_(&unknowns) {}
 
   // Constants; what is not one is a mistake of the caller.
   std::optional<Number> number(const Expr& expr);
   /// A whole number; anything else is reported.
   std::optional<int> whole(const Expr& expr);
+  /// The whole numbers of `a..b`, none of them where b is below a.
+  std::optional<Extent> range(const Expr& expr);
+  /// Runs body() for every value of the whole numbers that an expression binds, the last name fastest, until
+  /// it gives false; false then, and after a report. The values are those of `at` meanwhile.
+  bool for_each(const Expr& expr, const std::function<bool(const std::vector<int>& at)>& body);
   /// A domain or a value, as a box of its components.
   std::optional<Box> box(const Expr& expr);
 
@@ -47,6 +62,8 @@ class Evaluator {
   }
   /// Binds the point of a set builder, or of a minimum over a set.
   void bind(std::uint32_t local, Value value);
+  /// The truth of a relation between constants.
+  static std::optional<bool> truth(const Term& term);
   static hcsp::Expr expression(Problem& problem, const Term& term);
 
  private:
@@ -54,10 +71,31 @@ class Evaluator {
   Value name(const Expr& expr);
   Value symbol(const Symbol& symbol);
   Value unknown(const Symbol& symbol);
+  Value unknown_part(const Symbol& symbol, std::size_t first, std::size_t count);
+  Value cell(const Column& column, std::size_t row);
   Value index(const Expr& expr);
+  /// Components first..first + count - 1 of a value, without evaluating the others where that can be avoided.
+  Value part(const Expr& expr, std::size_t first, std::size_t count);
+  std::optional<std::size_t> offset(const Expr& written, const Type& base);
+  Value over_range(const Expr& expr);
+  Value combined(const Expr& expr, const std::vector<Value>& values);
+  Value comprehension(const Expr& expr);
   Value unary(const Expr& expr);
   Value binary(const Expr& expr);
+  /// A connective; of constants a constant.
+  Term connect(Operator op, const Term& a, const Term& b);
+  /// At least `count` of the relations hold.
+  Value at_least(int count, const Value& relations);
   Value arithmetic(const Expr& expr, const Value& a, const Value& b);
+  Value product(const Expr& expr, const Value& a, const Value& b);
+  Value matrix_function(const Expr& expr, BuiltIn function, const std::vector<Value>& arguments);
+  Term determinant(const Value& a, std::size_t n);
+  Value inverse(const Value& a, std::size_t n);
+  Value rotation(const std::vector<Value>& arguments);
+  Term sum_of(const Value& terms);
+  Term product_of(const Value& terms);
+  Term extremum(BuiltIn function, const Value& terms);
+  Term dot(const Value& a, const Value& b);
   Value power(const Expr& expr);
   Value relation(const Expr& expr, const Value& a, const Value& b);
   Value membership(const Expr& expr);
@@ -83,6 +121,9 @@ class Evaluator {
   bool take_step(const Expr& expr);
 
   Model& model_;
+  /// For constants that take an expression to tell, 3*sqrt(2) < 5 for one, where there is no other Problem.
+  std::unique_ptr<Problem> scratch_;
+  std::optional<Unknowns> none_;
   Unknowns* unknowns_ = nullptr;
   std::unordered_map<std::uint32_t, Value> locals_;
   std::optional<double> instant_;  // the instant at which tubes are taken; the one at hand when none

@@ -21,6 +21,13 @@ enum class BuiltIn : std::uint8_t {
   atan2,
   norm,
   dot,
+  cross,
+  // On matrices.
+  det,
+  inverse,
+  transpose,
+  zeros,
+  rot,
   sum,
   prod,
   // On data.

@@ -49,6 +49,13 @@ struct Reference {
   BuiltIn built_in = BuiltIn::none;
 };
 
+/// Whether an index is one of those of a type with components, or a row of a column; reports otherwise.
+bool require_index(const Type& type, int index, const SourceRange& range, Diagnostics& diagnostics);
+/// Whether a bound name runs over whole numbers: `i in 1..n`.
+bool is_whole_range(const Binding& binding);
+/// Whether all the names that an expression binds run over whole numbers.
+bool ranges_over_numbers(const Expr& expr);
+
 class Model {
  public:
   Model(SyntaxTree& tree, Diagnostics& diagnostics) : tree_(&tree), diagnostics_(&diagnostics) {}

@@ -14,8 +14,8 @@ std::string_view spelling(Operator op) {
 }
 
 std::string_view spelling(Quantifier quantifier) {
-  constexpr std::array<std::string_view, 8> kSpelling{"forall", "exists", "sum",   "prod",
-                                                      "min",    "max",    "union", "inter"};
+  constexpr std::array<std::string_view, 9> kSpelling{"forall", "exists", "atleast", "sum",  "prod",
+                                                      "min",    "max",    "union",   "inter"};
   return kSpelling[static_cast<std::size_t>(quantifier)];
 }
 

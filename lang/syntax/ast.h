@@ -53,25 +53,36 @@ std::string_view spelling(Operator op);
 inline bool is_logical(Operator op) { return op <= Operator::logical_not; }
 inline bool is_comparison(Operator op) { return op >= Operator::equal && op <= Operator::greater_equal; }
 
-enum class Quantifier : std::uint8_t { forall, exists, sum, product, minimum, maximum, set_union, set_inter };
+enum class Quantifier : std::uint8_t {
+  forall,
+  exists,
+  at_least,
+  sum,
+  product,
+  minimum,
+  maximum,
+  set_union,
+  set_inter
+};
 std::string_view spelling(Quantifier quantifier);
 
 enum class ExprKind : std::uint8_t {
-  number,       // text
-  string,       // text, without the quotes
-  infinity,     // oo
-  boolean,      // text: true or false
-  name,         // text
-  member,       // operands[0].text, or operands[0]."text"
-  index,        // operands[0][operands[1], ...]
-  call,         // operands[0](operands[1], ...)
-  unary,        // op operands[0]
-  binary,       // operands[0] op operands[1]
-  tuple,        // (operands[0], operands[1], ...)
-  interval,     // [operands[0], operands[1]]
-  builder,      // { bindings[0] | operands[0] }
-  quantified,   // quantifier(bindings) operands[0]
-  conditional,  // if operands[0] then operands[1] else operands[2] endif
+  number,         // text
+  string,         // text, without the quotes
+  infinity,       // oo
+  boolean,        // text: true or false
+  name,           // text
+  member,         // operands[0].text, or operands[0]."text"
+  index,          // operands[0][operands[1], ...]
+  call,           // operands[0](operands[1], ...)
+  unary,          // op operands[0]
+  binary,         // operands[0] op operands[1]
+  tuple,          // (operands[0], operands[1], ...)
+  interval,       // [operands[0], operands[1]]
+  builder,        // { bindings[0] | operands[0] }
+  quantified,     // quantifier(bindings) operands[0]; atleast(operands[1], bindings) operands[0]
+  conditional,    // if operands[0] then operands[1] else operands[2] endif
+  comprehension,  // (operands[0] | bindings)
 };
 
 struct Expr;

@@ -126,6 +126,8 @@ std::string dump(const Expr& expr) {
       return fmt::format("(set ({}){})", bindings(expr), operands(expr));
     case ExprKind::quantified:
       return fmt::format("({} ({}){})", spelling(expr.quantifier), bindings(expr), operands(expr));
+    case ExprKind::comprehension:
+      return fmt::format("(for ({}){})", bindings(expr), operands(expr));
     case ExprKind::conditional:
       return fmt::format("(if{})", operands(expr));
   }

@@ -272,8 +272,9 @@ const auto node = [](auto& ctx) { _val(ctx) = finish(ctx, std::move(_attr(ctx).e
 // (a) is a.
 const auto tuple_or_operand = [](auto& ctx) {
   Draft& draft = _attr(ctx);
-  const bool is_tuple = draft.expr.operands.size() > 1;
-  _val(ctx) = is_tuple ? finish(ctx, std::move(draft.expr), draft.first) : draft.expr.operands.front();
+  if (!draft.expr.bindings.empty()) draft.expr.kind = ExprKind::comprehension;
+  const bool is_more = draft.expr.operands.size() > 1 || !draft.expr.bindings.empty();
+  _val(ctx) = is_more ? finish(ctx, std::move(draft.expr), draft.first) : draft.expr.operands.front();
 };
 const auto extend = [](auto& ctx) {
   Draft& draft = _attr(ctx);
@@ -288,7 +289,29 @@ const auto primary = token(identifier)[leaf(ExprKind::name)] | token(number)[lea
                      interval[node] | builder[node] | forall[node] | conditional[node] |
                      token(string)[leaf(ExprKind::string)] | token(kw_oo)[leaf(ExprKind::infinity)] |
                      token(kw_true)[leaf(ExprKind::boolean)] | token(kw_false)[leaf(ExprKind::boolean)];
-const auto operand_def = primary >> *(call[extend] | index[extend] | member[extend]);
+
+// atleast(k, i in 1..n) c reads as a call until its body follows.
+bool is_count(const Expr& call) {
+  if (call.kind != ExprKind::call || call.operands.size() != 3) return false;
+  const Expr &callee = *call.operands[0], &bound = *call.operands[2];
+  return callee.kind == ExprKind::name && callee.text == "atleast" && bound.kind == ExprKind::binary &&
+         bound.op == Operator::in && bound.operands[0]->kind == ExprKind::name &&
+         bound.operands[1]->kind == ExprKind::binary && bound.operands[1]->op == Operator::range;
+}
+const auto counts = x3::eps[([](auto& ctx) { x3::_pass(ctx) = is_count(*_val(ctx)); })];
+const auto count_body = [](auto& ctx) {
+  const Expr& call = *_val(ctx);
+  const Expr& bound = *call.operands[2];
+  Expr expr;
+  expr.kind = ExprKind::quantified;
+  expr.quantifier = Quantifier::at_least;
+  expr.token = call.operands[0]->range;
+  expr.bindings.push_back({{bound.operands[0]->text, bound.operands[0]->range}, nullptr, bound.operands[1]});
+  expr.operands = {_attr(ctx), call.operands[1]};
+  _val(ctx) = finish(ctx, std::move(expr), call.range);
+};
+const auto operand_def = primary >> *(call[extend] | index[extend] | member[extend]) >>
+                         -(counts > expression[count_body]);
 
 const auto set_member = [](auto& ctx) {
   const Token& named = last_token(ctx);
@@ -303,8 +326,9 @@ const auto index_def = begins(ExprKind::index) >> token(left_bracket) >
 const auto call_def = begins(ExprKind::call) >> token(left_paren) >
                       -(expression[add_operand] % token(comma)) > token(right_paren);
 
-const auto tuple_def = begins(ExprKind::tuple) >> token(left_paren) >
-                       (expression[add_operand] % token(comma)) > token(right_paren);
+const auto tuple_def = begins(ExprKind::tuple) >> token(left_paren) > expression[add_operand] >
+                       ((token(bar) > (bound_name[add_binding] % token(comma))) |
+                        *(token(comma) > expression[add_operand])) > token(right_paren);
 const auto interval_def = begins(ExprKind::interval) >> token(left_bracket) > expression[add_operand] >
                           token(comma) > expression[add_operand] > token(right_bracket);
 const auto point_def = name[put(&Binding::name)] >> -(token(colon) > type[put(&Binding::type)]);

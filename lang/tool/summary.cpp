@@ -95,15 +95,7 @@ std::string summary(const Result& result, const std::vector<std::string>& shown)
                                  result.statistics.passes == 1 ? "" : "es");
   if (result.explanation) explain(*result.explanation, text);
   if (result.status == Status::infeasible) return text;
-  std::vector<const ResultVariable*> listed;
-  for (const std::string& name : shown) {
-    const auto found = std::find_if(result.variables.begin(), result.variables.end(),
-                                    [&](const ResultVariable& variable) { return variable.name == name; });
-    if (found != result.variables.end()) listed.push_back(&*found);
-  }
-  if (shown.empty()) {
-    for (const ResultVariable& variable : result.variables) listed.push_back(&variable);
-  }
+  const std::vector<const ResultVariable*> listed = select(result.variables, shown);
   std::size_t longest = 0;
   for (const ResultVariable* variable : listed) longest = std::max(longest, variable->name.size());
   for (const ResultVariable* variable : listed) {

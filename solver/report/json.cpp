@@ -108,18 +108,58 @@ void put_domain(TextBuffer& out, NumberTexts& texts, const SetInterval& x) {
   put(out, '}');
 }
 
-void put_variables(TextBuffer& out, NumberTexts& texts, const std::vector<ResultVariable>& variables) {
-  put(out, "  \"variables\": {");
-  for (const ResultVariable& variable : variables) {
-    put(out, &variable == variables.data() ? "\n    " : ",\n    ");
-    put_key(out, variable.name);
-    if (variable.is_empty()) {
-      put(out, "null");
-      continue;
-    }
-    put(out, "{ ");
+void put_matrix(TextBuffer& out, const Box& x, std::size_t columns) {
+  const auto put_bound = [&](double (Interval::*bound)() const) {
+    put_list(out, static_cast<std::size_t>(x.dim()) / columns, [&](std::size_t row) {
+      put_list(out, columns, [&](std::size_t column) {
+        put_json_number(out, (x[static_cast<Eigen::Index>(row * columns + column)].*bound)());
+      });
+    });
+  };
+  put(out, R"("kind": "matrix", "lo": )");
+  put_bound(&Interval::lo);
+  put(out, R"(, "hi": )");
+  put_bound(&Interval::hi);
+}
+
+void put_variable(TextBuffer& out, NumberTexts& texts, const ResultVariable& variable) {
+  if (variable.is_empty()) {
+    put(out, "null");
+    return;
+  }
+  put(out, "{ ");
+  if (variable.shape.columns != 0) {
+    put_matrix(out, std::get<Box>(variable.domain), variable.shape.columns);
+  } else {
     std::visit([&](const auto& domain) { put_domain(out, texts, domain); }, variable.domain);
-    put(out, " }");
+  }
+  put(out, " }");
+}
+
+// The elements of an array along its k-th index; they stand in the order of their indices.
+void put_array(TextBuffer& out, NumberTexts& texts, std::span<const ResultVariable> elements, std::size_t k) {
+  put(out, R"({ "kind": "array", "items": [)");
+  for (std::size_t first = 0, next = 0; first < elements.size(); first = next) {
+    const int index = elements[first].shape.indices[k];
+    while (next < elements.size() && elements[next].shape.indices[k] == index) ++next;
+    put(out, first == 0 ? "\n      " : ",\n      ");
+    const bool is_last = k + 1 == elements[first].shape.indices.size();
+    is_last ? put_variable(out, texts, elements[first])
+            : put_array(out, texts, elements.subspan(first, next - first), k + 1);
+  }
+  put(out, "] }");
+}
+
+void put_variables(TextBuffer& out, NumberTexts& texts, std::span<const ResultVariable> variables) {
+  put(out, "  \"variables\": {");
+  for (std::size_t first = 0, next = 0; first < variables.size(); first = next) {
+    const std::string& array = variables[first].shape.array;
+    next = first + 1;
+    while (!array.empty() && next < variables.size() && variables[next].shape.array == array) ++next;
+    put(out, first == 0 ? "\n    " : ",\n    ");
+    put_key(out, array.empty() ? variables[first].name : array);
+    array.empty() ? put_variable(out, texts, variables[first])
+                  : put_array(out, texts, variables.subspan(first, next - first), 0);
   }
   put(out, variables.empty() ? "},\n" : "\n  },\n");
 }

@@ -265,14 +265,7 @@ void put_head(TextBuffer& out, const Result& result) {
 
 std::vector<const ResultVariable*> shown_variables(const std::vector<ResultVariable>& variables,
                                                    const Presentation& presentation) {
-  std::vector<const ResultVariable*> shown;
-  for (const std::string& name : presentation.shown) {
-    if (const ResultVariable* variable = find(variables, name)) shown.push_back(variable);
-  }
-  if (presentation.shown.empty()) {
-    for (const ResultVariable& variable : variables) shown.push_back(&variable);
-  }
-  return shown;
+  return select(variables, presentation.shown);
 }
 
 std::string page_data(const Result& result, const Presentation& presentation) {

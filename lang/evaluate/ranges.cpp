@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: Apache-2.0
+// What ranges over whole numbers: its body is put in place for every value.
+#include "lang/evaluate/evaluator.h"
+
+namespace hcsp::lang {
+
+std::optional<Extent> Evaluator::range(const Expr& expr) {
+  const auto first = whole(*expr.operands[0]);
+  const auto last = first ? whole(*expr.operands[1]) : std::nullopt;
+  if (!last) return {};
+  return Extent{*first, *last};
+}
+
+bool Evaluator::for_each(const Expr& expr, const std::function<bool(const std::vector<int>& at)>& body) {
+  std::vector<int> at;
+  const std::function<bool(std::size_t)> bind_from = [&](std::size_t k) {
+    if (k == expr.bindings.size()) return body(at);
+    const Expr& written = *expr.bindings[k].domain;
+    const auto extent = range(written);
+    if (!extent) return false;
+    at.push_back(0);
+    for (std::int64_t i = extent->first; i <= extent->last; ++i) {
+      if (!take_step(written)) return false;
+      at.back() = static_cast<int>(i);
+      bind(model_.reference(written).local, {*Number::parse(std::to_string(i))});
+      if (!bind_from(k + 1)) return false;
+    }
+    at.pop_back();
+    return true;
+  };
+  return bind_from(0);
+}
+
+Value Evaluator::over_range(const Expr& expr) {
+  std::vector<Value> values;
+  const bool done = for_each(expr, [&](const std::vector<int>&) {
+    values.push_back(value(*expr.operands[0]));
+    return !values.back().empty();
+  });
+  return done ? combined(expr, values) : Value{};
+}
+
+// What a quantifier makes of the values of its body.
+Value Evaluator::combined(const Expr& expr, const std::vector<Value>& values) {
+  const auto joined = [&](Operator op, bool neutral) {
+    Term all = boolean(neutral);
+    for (const Value& one : values) all = connect(op, all, one.front());
+    return Value{all};
+  };
+  switch (expr.quantifier) {
+    case Quantifier::forall:
+      return joined(Operator::logical_and, true);
+    case Quantifier::exists:
+      return joined(Operator::logical_or, false);
+    case Quantifier::at_least: {
+      const auto count = whole(*expr.operands[1]);
+      Value relations;
+      for (const Value& one : values) relations.push_back(one.front());
+      return count ? at_least(*count, relations) : Value{};
+    }
+    case Quantifier::sum: {
+      Value total(model_.type(expr).terms(), *Number::parse("0"));
+      for (const Value& one : values) {
+        for (std::size_t i = 0; i < total.size(); ++i)
+          total[i] = &one == values.data() ? one[i] : operate(Operator::add, total[i], one[i]);
+      }
+      return defined(expr, std::move(total));
+    }
+    default:
+      break;
+  }
+  Value terms;
+  for (const Value& one : values) terms.push_back(one.front());
+  if (expr.quantifier == Quantifier::product) return defined(expr, {product_of(terms)});
+  if (terms.empty()) {
+    model_.diagnostics()
+        .report(Code::undefined_constant, expr.range)
+        .note(fmt::format("there is no value to take the {}imum of",
+                          expr.quantifier == Quantifier::minimum ? "min" : "max"));
+    return {};
+  }
+  return {extremum(expr.quantifier == Quantifier::minimum ? BuiltIn::min : BuiltIn::max, terms)};
+}
+
+Value Evaluator::at_least(int count, const Value& relations) {
+  std::vector<hcsp::Expr> open;
+  for (const Term& relation : relations) {
+    const auto known = truth(relation);
+    if (!known) open.push_back(std::get<hcsp::Expr>(relation));
+    count -= known.value_or(false) ? 1 : 0;
+  }
+  if (count <= 0) return {boolean(true)};
+  if (static_cast<std::size_t>(count) > open.size()) return {boolean(false)};
+  Value holds;
+  for (const hcsp::Expr& relation : open)
+    holds.push_back(if_then_else(relation, expression(boolean(true)), expression(boolean(false))));
+  return {expression(sum_of(holds)) >= expression(*Number::parse(std::to_string(count)))};
+}
+
+Value Evaluator::comprehension(const Expr& expr) {
+  Value all;
+  const bool done = for_each(expr, [&](const std::vector<int>&) {
+    const Value found = value(*expr.operands[0]);
+    all.insert(all.end(), found.begin(), found.end());
+    return !found.empty();
+  });
+  return done ? all : Value{};
+}
+
+}  // namespace hcsp::lang

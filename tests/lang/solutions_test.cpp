@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: Apache-2.0
+// What models mean: a model of good/ that says, in comments at its top,
+//   // solution: x = (1, sqrt(2))      a solution has these values; an expression of constants
+//   // width: x <= 1e-6                the width of the answer, of its widest component
+//   // solution: x(0.5) = exp(-0.5)    of a tube at a gate
+//   // inside: A (1, 2)                the point is proven to be in the set
+//   // outside: A (3, 3)               or not to be
+//   // maybe: A (2, 2)                 neither
+//   // volume: A 3.14 <= 0.5           the volume of the set is enclosed, within 0.5
+//   // infeasible                      no solution exists, and that is found
+// is solved, and its answer has to hold the solution and be no wider.
+#include <gtest/gtest.h>
+
+#include <regex>
+
+#include "corpus.h"
+
+namespace hcsp::lang {
+namespace {
+
+/// The tightest enclosures of a constant or a vector of constants.
+std::vector<Interval> constants(const std::string& expression) {
+  const bool is_vector = expression.starts_with("(");
+  const std::size_t commas = static_cast<std::size_t>(std::count(expression.begin(), expression.end(), ','));
+  for (std::size_t size = 1; size <= commas + 1; ++size) {
+    const std::string type = size == 1 ? "real" : fmt::format("real[{}]", size);
+    Compilation compilation = compile_text(
+        {"solution",
+         fmt::format("model m;\nvar v : {};\nconstraint v == {};\nsolve propagate;\n", type, expression)});
+    if (!compilation.model) continue;
+    const Result result = compilation.model->problem->propagate();
+    if (const auto* real = std::get_if<Interval>(&result["v"])) return {*real};
+    std::vector<Interval> values;
+    const Box& box = std::get<Box>(result["v"]);
+    for (Eigen::Index i = 0; i < box.dim(); ++i) values.push_back(box[i]);
+    return values;
+  }
+  ADD_FAILURE() << "no constant: " << expression << (is_vector ? " (a vector)" : "");
+  return {};
+}
+
+std::vector<Interval> answer(const Result& result, const std::string& name) {
+  static const std::regex kAtInstant(R"(([^(]+)\(([^)]*)\))");
+  std::smatch match;
+  if (std::regex_match(name, match, kAtInstant)) {
+    const auto& tube = std::get<Tube>(result[match[1].str()]);
+    const auto gate = tube.line().gate_at(std::stod(match[2].str()));
+    EXPECT_TRUE(gate.has_value()) << name;
+    std::vector<Interval> values;
+    for (std::size_t c = 0; gate && c < tube.dim(); ++c) values.push_back(tube.at(c, 2 * *gate));
+    return values;
+  }
+  const Domain& domain = result[name];
+  if (const auto* real = std::get_if<Interval>(&domain)) return {*real};
+  std::vector<Interval> values;
+  if (const auto* box = std::get_if<Box>(&domain)) {
+    for (Eigen::Index i = 0; i < box->dim(); ++i) values.push_back((*box)[i]);
+  } else if (const auto* tube = std::get_if<Tube>(&domain)) {
+    for (std::size_t item = 0; item < tube->items(); ++item) {
+      for (std::size_t c = 0; c < tube->dim(); ++c) values.push_back(tube->at(c, item));
+    }
+  }
+  return values;
+}
+
+void expect_solution(const Result& result, const std::string& name, const std::string& value) {
+  const std::vector<Interval> truth = constants(value), found = answer(result, name);
+  ASSERT_EQ(truth.size(), found.size()) << name;
+  for (std::size_t i = 0; i < truth.size(); ++i) {
+    // A constant that is no double lies within its enclosure, and may be outside of either end.
+    const bool holds = truth[i].is_point() ? leq(truth[i], found[i]) : !meet(truth[i], found[i]).is_empty();
+    EXPECT_TRUE(holds) << name << ", component " << i + 1 << ": " << to_string(truth[i]) << " is not in "
+                       << to_string(found[i]);
+  }
+}
+
+void expect_width(const Result& result, const std::string& name, double most) {
+  for (const Interval& value : answer(result, name)) EXPECT_LE(value.width(), most) << name;
+}
+
+void expect_state(const Result& result, const std::string& set, const std::string& point, CellState state) {
+  std::vector<double> at;
+  for (const Interval& x : constants(point)) at.push_back(x.mid());
+  EXPECT_EQ(std::get<SetInterval>(result[set]).at(at.data()), state) << set << " at " << point;
+}
+
+void expect_volume(const Result& result, const std::string& set, double volume, double width) {
+  const auto& domain = std::get<SetInterval>(result[set]);
+  EXPECT_LE(domain.lower_volume(), volume) << set;
+  EXPECT_GE(domain.upper_volume(), volume) << set;
+  EXPECT_LE(domain.upper_volume() - domain.lower_volume(), width) << set;
+}
+
+bool check_line(const Result& result, const std::string& line) {
+  static const std::regex kSolution(R"(// solution: (.+?) = (.+))"), kWidth(R"(// width: (.+?) <= (\S+))"),
+      kState(R"(// (inside|outside|maybe): (\S+) (.+))"), kVolume(R"(// volume: (\S+) (\S+) <= (\S+))");
+  std::smatch match;
+  if (std::regex_match(line, match, kSolution)) {
+    expect_solution(result, match[1], match[2]);
+  } else if (std::regex_match(line, match, kWidth)) {
+    expect_width(result, match[1], std::stod(match[2]));
+  } else if (std::regex_match(line, match, kState)) {
+    expect_state(result, match[2], match[3],
+                 match[1] == "inside"    ? CellState::inside
+                 : match[1] == "outside" ? CellState::outside
+                                         : CellState::unknown);
+  } else if (std::regex_match(line, match, kVolume)) {
+    expect_volume(result, match[1], std::stod(match[2]), std::stod(match[3]));
+  } else if (line == "// infeasible") {
+    EXPECT_EQ(result.status, Status::infeasible);
+  } else {
+    return false;
+  }
+  if (line != "// infeasible") EXPECT_EQ(result.status, Status::contracted) << line;
+  return true;
+}
+
+TEST(Solutions, AreInTheAnswersOfGoodModels) {
+  std::size_t checked = 0;
+  for (const auto& path : models_in(kLangTests / "good")) {
+    SCOPED_TRACE(path.filename().string());
+    const std::string text = read_text(path);
+    if (text.find("// solution: ") == std::string::npos && text.find("// infeasible") == std::string::npos &&
+        text.find("// volume: ") == std::string::npos)
+      continue;
+    const Compilation compilation = compile_as("good/" + path.filename().string(), text, options_in(text));
+    ASSERT_TRUE(compilation.model.has_value());
+    const Result result = compilation.model->problem->propagate();
+    std::istringstream lines(text);
+    for (std::string line; std::getline(lines, line) && line.starts_with("//");)
+      checked += check_line(result, line) ? 1 : 0;
+  }
+  EXPECT_GE(checked, 10U);
+}
+
+}  // namespace
+}  // namespace hcsp::lang
