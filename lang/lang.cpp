@@ -2,6 +2,8 @@
 #include "lang/lang.h"
 
 #include <algorithm>
+#include <cstdlib>
+#include <sstream>
 
 #include "domains/rounding.h"
 #include "lang/check/check.h"
@@ -79,6 +81,17 @@ void build(Compilation& compilation, const CompileOptions& options) {
 
 }  // namespace
 
+std::vector<std::string> library_folders() {
+  std::vector<std::string> folders;
+  const char* listed = std::getenv("HCSP_LIBRARY");
+  std::istringstream list(listed == nullptr ? "" : listed);
+  for (std::string folder; std::getline(list, folder, ':');) {
+    if (!folder.empty()) folders.push_back(folder);
+  }
+  folders.insert(folders.end(), {HCSP_INSTALLED_MODELS, HCSP_SOURCE_MODELS});
+  return folders;
+}
+
 Compilation compile_file(const std::string& path, const CompileOptions& options) {
   std::string error;
   auto text = read_file(path, error);
@@ -94,7 +107,7 @@ Compilation compile_text(ModelSource text, const CompileOptions& options) {
   Compilation compilation;
   compilation.tree = std::make_unique<SyntaxTree>();
   const Source& source = compilation.tree->add_source(std::move(text.name), std::move(text.text));
-  load(source, *compilation.tree, compilation.diagnostics);
+  load(source, *compilation.tree, options.library, compilation.diagnostics);
   // What was not read cannot be missed: without all the items, names would be unknown for no fault of theirs.
   if (compilation.diagnostics.any()) return compilation;
   require_items(*compilation.tree, source, compilation.diagnostics);

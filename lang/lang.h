@@ -15,6 +15,10 @@
 
 namespace hcsp::lang {
 
+/// The folders of the environment's HCSP_LIBRARY, a list with colons, then that of the models that come with
+/// hcsp: `include "library/polar.hcsp"` is found there.
+std::vector<std::string> library_folders();
+
 /// The text of a model. Paths in it are relative to the folder of `name`.
 struct ModelSource {
   std::string name;
@@ -26,6 +30,8 @@ struct CompileOptions {
   std::map<std::string, std::string> parameters;
   /// `--data NAME=FILE`: files that replace those of the model, relative to the working folder.
   std::map<std::string, std::string> data_files;
+  /// Where `include` looks for a file that is not beside the one that names it.
+  std::vector<std::string> library = library_folders();
   Clock clock = steady_clock();
 };
 

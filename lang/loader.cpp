@@ -16,7 +16,8 @@ constexpr std::size_t kDeepestInclude = 64;
 
 class Loader {
  public:
-  Loader(SyntaxTree& tree, Diagnostics& diagnostics) : tree_(tree), diagnostics_(diagnostics) {}
+  Loader(SyntaxTree& tree, const std::vector<std::string>& library, Diagnostics& diagnostics)
+      : tree_(tree), library_(library), diagnostics_(diagnostics) {}
 
   void load(const Source& source) {
     open_.push_back(identity(source.name()));
@@ -43,8 +44,20 @@ class Loader {
     return error ? path : canonical.string();
   }
 
+  // Beside the file that includes it or in the library; if nowhere, beside the file, for the message.
+  [[nodiscard]] std::string find(const std::string& from, const std::string& written) const {
+    std::string own = beside(from, written);
+    std::error_code ignored;
+    if (std::filesystem::exists(own, ignored)) return own;
+    for (const std::string& folder : library_) {
+      std::string shared = (std::filesystem::path(folder) / written).string();
+      if (std::filesystem::exists(shared, ignored)) return shared;
+    }
+    return own;
+  }
+
   void load_included(const Source& from, const Name& written) {
-    const std::string path = beside(from.name(), std::string(written.text));
+    const std::string path = find(from.name(), std::string(written.text));
     const std::string file = identity(path);
     if (std::find(open_.begin(), open_.end(), file) != open_.end() || open_.size() >= kDeepestInclude) {
       diagnostics_.report(Code::include_cycle, written.range, written.text);
@@ -61,6 +74,7 @@ class Loader {
   }
 
   SyntaxTree& tree_;
+  const std::vector<std::string>& library_;
   Diagnostics& diagnostics_;
   std::vector<std::string> open_;
   std::set<std::string> done_;
@@ -68,8 +82,9 @@ class Loader {
 
 }  // namespace
 
-void load(const Source& source, SyntaxTree& tree, Diagnostics& diagnostics) {
-  Loader(tree, diagnostics).load(source);
+void load(const Source& source, SyntaxTree& tree, const std::vector<std::string>& library,
+          Diagnostics& diagnostics) {
+  Loader(tree, library, diagnostics).load(source);
 }
 
 }  // namespace hcsp::lang

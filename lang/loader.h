@@ -9,6 +9,7 @@ namespace hcsp::lang {
 
 /// Appends the items of a source to the tree, an included file's in the place of its include. A file that is
 /// included twice counts once; one that includes itself, through others or not, is reported.
-void load(const Source& source, SyntaxTree& tree, Diagnostics& diagnostics);
+void load(const Source& source, SyntaxTree& tree, const std::vector<std::string>& library,
+          Diagnostics& diagnostics);
 
 }  // namespace hcsp::lang
