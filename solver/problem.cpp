@@ -61,8 +61,14 @@ struct Problem::Impl {
 
   NodeId relation_of(Expr relation, std::size_t point_dim = 0) const {
     const NodeId node = node_of(relation, point_dim);
-    require(is_boolean(dag[node].op), "Problem: the expression is no relation");
+    require(holds_or_not(node), "Problem: the expression is no relation");
     return node;
+  }
+
+  [[nodiscard]] bool holds_or_not(NodeId id) const {
+    const DagNode& node = dag[id];
+    if (node.op != Op::if_then_else) return is_boolean(node.op);
+    return holds_or_not(node.operands[1]) && holds_or_not(node.operands[2]);
   }
 
   void need_line() const { require(line != nullptr, "Problem: set_time_line comes before the first tube"); }

@@ -118,6 +118,8 @@ Type Checker::check_built_in(const Expr& expr, const BuiltInFunction& function) 
       return check_der(expr);
     case BuiltIn::distance:
       return check_distance(expr);
+    case BuiltIn::at_least:
+      return check_at_least(expr);
     case BuiltIn::disjoint:
     case BuiltIn::meets:
       return check_set_relation(expr, function);
@@ -173,7 +175,18 @@ Type Checker::check_scalar_function(const Expr& expr, const BuiltInFunction& fun
     }
     type = combined(Type::Kind::real, 0, type, arguments[i]);
   }
+  if (function.id == BuiltIn::root) return check_root(expr, type);
   return type;
+}
+
+Type Checker::check_root(const Expr& expr, const Type& type) {
+  const Expr& degree = *expr.operands[2];
+  const Type found = model_.type(degree);
+  if (!require_known(degree, found)) return {};
+  const auto whole = found.known == Known::now ? constants_.whole(degree) : std::optional(1);
+  if (!whole || *whole >= 1) return whole ? type : Type{};
+  diagnostics().report(Code::wrong_type, degree.range, "a whole number from 1", fmt::format("{}", *whole));
+  return {};
 }
 
 Type Checker::check_vector_function(const Expr& expr, const BuiltInFunction&,

@@ -82,6 +82,8 @@ class Checker {
   Type check_built_in(const Expr& expr, const BuiltInFunction& function);
   Type check_scalar_function(const Expr& expr, const BuiltInFunction& function,
                              const std::vector<Type>& arguments);
+  Type check_at_least(const Expr& expr);
+  Type check_root(const Expr& expr, const Type& type);
   Type check_vector_function(const Expr& expr, const BuiltInFunction& function,
                              const std::vector<Type>& arguments);
   Type check_matrix_function(const Expr& expr, const BuiltInFunction& function,

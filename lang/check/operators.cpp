@@ -133,23 +133,15 @@ Type Checker::check_arithmetic(const Expr& expr, const Type& a, const Type& b) {
 
 Type Checker::check_power(const Expr& expr, const Type& base, const Type& exponent) {
   const Expr& written = *expr.operands[1];
-  if (!require_scalar(written, exponent) || !require_constant(written, exponent)) return {};
   if (base.is(Type::Kind::domain)) {
-    if (base.dim != 0 || base.tube) return wrong_operands(expr, base, exponent);
-    const auto count = constants_.whole(written);
-    if (!count) return {};
-    if (*count < 1 || *count > static_cast<int>(kMostComponents)) {
-      diagnostics().report(Code::bad_size, written.range, kMostComponents, *count);
-      return {};
-    }
-    return {Type::Kind::domain, false, static_cast<std::uint32_t>(*count), base.known, nullptr};
+    if (!base.is_scalar() || base.tube) return wrong_operands(expr, base, exponent);
+    const auto count = size_of(written);
+    return count ? Type{Type::Kind::domain, false, *count, base.known, nullptr} : Type{};
   }
-  if (!base.is_scalar_real()) return wrong_operands(expr, base, exponent);
-  const auto value = constants_.number(written);
-  if (!value) return {};
-  const auto whole = value->exact ? value->exact->as_int() : std::nullopt;
-  if (!whole || *whole < -64 || *whole > 64) return not_supported(written.range, "this exponent");
-  return base;
+  if (!base.is_scalar_real() || !exponent.is_scalar_real()) return wrong_operands(expr, base, exponent);
+  Type type = combined(Type::Kind::real, 0, base, exponent);
+  type.whole = base.whole && exponent.whole;
+  return type;
 }
 
 Type Checker::check_tolerance(const Expr& expr, const Type& a, const Type& b) {

@@ -73,6 +73,37 @@ Type Checker::check_over_range(const Expr& expr, bool stated) {
   return body;
 }
 
+// atleast(k, (c1, ..., cn)).
+Type Checker::check_at_least(const Expr& expr) {
+  const Expr &count = *expr.operands[1], &list = *expr.operands[2];
+  const Type type_of_count = check(count);
+  if (type_of_count.is_error() || !require_scalar(count, type_of_count) ||
+      !require_known(count, type_of_count))
+    return {};
+  if (list.kind != ExprKind::tuple) {
+    diagnostics().report(Code::wrong_type, list.range, "a list of relations `(c1, ..., cn)`",
+                         fmt::format("`{}`", list.range.text().substr(0, 40)));
+    return {};
+  }
+  Type all{Type::Kind::boolean, false, 0, type_of_count.known, nullptr};
+  bool bad = false;
+  for (const Expr* relation : list.operands) {
+    const Type type = check(*relation);
+    bad = bad || type.is_error();
+    if (!type.is_error() && (!type.is(Type::Kind::boolean) || type.is_array())) {
+      diagnostics().report(Code::wrong_type, relation->range, "a relation", describe(type));
+      bad = true;
+    }
+    all = combined(Type::Kind::boolean, 0, all, type);
+  }
+  if (bad) return {};
+  if (all.tube && !pointwise_) {
+    diagnostics().report(Code::logic_over_time, expr.range, "atleast");
+    return {};
+  }
+  return all;
+}
+
 Type Checker::check_comprehension(const Expr& expr) {
   std::size_t size = 1;
   for (const Binding& binding : expr.bindings) {

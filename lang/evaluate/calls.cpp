@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Calls: functions of the model, by substitution; tubes at an instant; built-in functions.
 #include <algorithm>
+#include <array>
 #include <utility>
 
+#include "domains/interval/functions.h"
 #include "lang/evaluate/evaluator.h"
 
 namespace hcsp::lang {
@@ -48,34 +50,33 @@ Value Evaluator::at_instant(const Expr& expr) {
   return found;
 }
 
+namespace {
+
+/// A function of one real, of numbers and of expressions.
+struct ScalarFunction {
+  BuiltIn id;
+  Interval (*of_number)(const Interval&);
+  hcsp::Expr (*of_expression)(hcsp::Expr);
+};
+
+constexpr std::array kScalarFunctions{
+#define HCSP_SCALAR(name) ScalarFunction{BuiltIn::name, hcsp::name, hcsp::name}
+    HCSP_SCALAR(sqr),  HCSP_SCALAR(sqrt), HCSP_SCALAR(abs),  HCSP_SCALAR(exp),  HCSP_SCALAR(log),
+    HCSP_SCALAR(sin),  HCSP_SCALAR(cos),  HCSP_SCALAR(tan),  HCSP_SCALAR(asin), HCSP_SCALAR(acos),
+    HCSP_SCALAR(atan), HCSP_SCALAR(sinh), HCSP_SCALAR(cosh), HCSP_SCALAR(tanh), HCSP_SCALAR(floor),
+    HCSP_SCALAR(ceil), HCSP_SCALAR(sign),
+#undef HCSP_SCALAR
+};
+
+}  // namespace
+
 Term Evaluator::scalar_function(BuiltIn function, const Term& a) {
-  if (const auto* number = std::get_if<Number>(&a)) {
-    switch (function) {
-      case BuiltIn::sqr:
-        return number->exact ? *number * *number : Number::of(sqr(number->enclosure));
-      case BuiltIn::sqrt:
-        return Number::of(sqrt(number->enclosure));
-      case BuiltIn::abs:
-        return Number::of(abs(number->enclosure));
-      case BuiltIn::sin:
-        return Number::of(sin(number->enclosure));
-      default:
-        return Number::of(cos(number->enclosure));
-    }
-  }
-  const hcsp::Expr& x = std::get<hcsp::Expr>(a);
-  switch (function) {
-    case BuiltIn::sqr:
-      return sqr(x);
-    case BuiltIn::sqrt:
-      return sqrt(x);
-    case BuiltIn::abs:
-      return abs(x);
-    case BuiltIn::sin:
-      return sin(x);
-    default:
-      return cos(x);
-  }
+  const auto& entry = *std::find_if(kScalarFunctions.begin(), kScalarFunctions.end(),
+                                    [&](const ScalarFunction& known) { return known.id == function; });
+  const auto* number = std::get_if<Number>(&a);
+  if (number == nullptr) return entry.of_expression(std::get<hcsp::Expr>(a));
+  if (function == BuiltIn::sqr && number->exact) return *number * *number;
+  return Number::of(entry.of_number(number->enclosure));
 }
 
 Term Evaluator::scalar_function(BuiltIn function, const Term& a, const Term& b) {
@@ -103,6 +104,11 @@ Term Evaluator::scalar_function(BuiltIn function, const Term& a, const Term& b) 
   }
 }
 
+Term Evaluator::root_of(const Term& a, int degree) {
+  if (const auto* number = std::get_if<Number>(&a)) return Number::of(rootn(number->enclosure, degree));
+  return root(std::get<hcsp::Expr>(a), degree);
+}
+
 Term Evaluator::sum_of(const Value& terms) {
   Term total = terms.front();
   for (std::size_t i = 1; i < terms.size(); ++i) total = operate(Operator::add, total, terms[i]);
@@ -124,6 +130,16 @@ Term Evaluator::extremum(BuiltIn function, const Value& terms) {
 Value Evaluator::built_in(const Expr& expr, BuiltIn function) {
   if (function == BuiltIn::first || function == BuiltIn::last || function == BuiltIn::rows) {
     return data_value(expr, function);
+  }
+  if (function == BuiltIn::at_least) {
+    const auto count = whole(*expr.operands[1]);
+    Value relations;
+    for (const Expr* relation : expr.operands[2]->operands) {
+      const Value one = value(*relation);
+      if (one.empty()) return {};
+      relations.push_back(one.front());
+    }
+    return count ? at_least(*count, relations) : Value{};
   }
   if (function == BuiltIn::distance) return {};  // a relation of its own (compile)
   std::vector<Value> arguments;
@@ -158,6 +174,10 @@ Value Evaluator::built_in(const Expr& expr, BuiltIn function) {
     case BuiltIn::zeros:
     case BuiltIn::rot:
       return matrix_function(expr, function, arguments);
+    case BuiltIn::root: {
+      const auto degree = whole(*expr.operands[2]);
+      return degree ? defined(expr, {root_of(a.front(), *degree)}) : Value{};
+    }
     case BuiltIn::atan2:
       return defined(expr, {scalar_function(function, a.front(), arguments[1].front())});
     default:

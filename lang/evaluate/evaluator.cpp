@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "domains/interval/functions.h"
 #include "lang/syntax/parser.h"
 
 namespace hcsp::lang {
@@ -12,6 +13,7 @@ namespace {
 // Inlining functions in functions doubles at each level: a model must not be able to fill the memory.
 constexpr std::uint64_t kMostSteps = 5'000'000;
 constexpr std::uint32_t kDeepestEvaluation = 2000;
+constexpr int kMostExactFactors = 64;
 
 hcsp::Expr compare(Operator op, const hcsp::Expr& a, const hcsp::Expr& b) {
   switch (op) {
@@ -404,20 +406,28 @@ Value Evaluator::arithmetic(const Expr& expr, const Value& a, const Value& b) {
 }
 
 Value Evaluator::power(const Expr& expr) {
-  const auto exponent = whole(*expr.operands[1]);
-  Value base = value(*expr.operands[0]);
-  if (!exponent || base.empty()) return {};
-  // Squares are tight where products are not: x^6 is ((x*x^2)^2).
-  Term result = Number::of(Interval(1.0));
-  const int magnitude = std::abs(*exponent);
-  for (int bit = 64; bit > 0; bit /= 2) {
-    if (magnitude >= 2 * bit) result = scalar_function(BuiltIn::sqr, result);
-    const bool first = magnitude / (2 * bit) == 0;
-    if ((magnitude & bit) != 0)
-      result = first ? base.front() : operate(Operator::multiply, result, base.front());
-  }
-  if (*exponent < 0) result = operate(Operator::divide, *Number::parse("1"), result);
-  return defined(expr, {result});
+  const Value base = value(*expr.operands[0]);
+  const Value exponent = base.empty() ? Value{} : value(*expr.operands[1]);
+  if (exponent.empty()) return {};
+  const auto* number = std::get_if<Number>(&exponent.front());
+  const auto whole = number != nullptr && number->exact ? number->exact->as_int() : std::nullopt;
+  if (whole) return defined(expr, {power_of(base.front(), *whole)});
+  const auto* known = std::get_if<Number>(&base.front());
+  if (known != nullptr && number != nullptr)
+    return defined(expr, {Number::of(pow(known->enclosure, number->enclosure))});
+  return {pow(expression(base.front()), expression(exponent.front()))};
+}
+
+Term Evaluator::power_of(const Term& base, int exponent) {
+  if (exponent == 1) return base;
+  if (exponent == 2) return scalar_function(BuiltIn::sqr, base);
+  const auto* number = std::get_if<Number>(&base);
+  if (number == nullptr) return pown(std::get<hcsp::Expr>(base), exponent);
+  const Number rounded = Number::of(pown(number->enclosure, exponent));
+  if (!number->exact || exponent < 0 || exponent > kMostExactFactors) return rounded;
+  Number product = *Number::parse("1");
+  for (int i = 0; i < exponent; ++i) product = product * *number;
+  return product.exact ? product : rounded;
 }
 
 Value Evaluator::relation(const Expr& expr, const Value& a, const Value& b) {

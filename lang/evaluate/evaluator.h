@@ -92,6 +92,8 @@ class Evaluator {
   Term determinant(const Value& a, std::size_t n);
   Value inverse(const Value& a, std::size_t n);
   Value rotation(const std::vector<Value>& arguments);
+  Term root_of(const Term& a, int degree);
+  Term power_of(const Term& base, int exponent);
   Term sum_of(const Value& terms);
   Term product_of(const Value& terms);
   Term extremum(BuiltIn function, const Value& terms);

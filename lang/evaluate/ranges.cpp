@@ -91,10 +91,7 @@ Value Evaluator::at_least(int count, const Value& relations) {
   }
   if (count <= 0) return {boolean(true)};
   if (static_cast<std::size_t>(count) > open.size()) return {boolean(false)};
-  Value holds;
-  for (const hcsp::Expr& relation : open)
-    holds.push_back(if_then_else(relation, expression(boolean(true)), expression(boolean(false))));
-  return {expression(sum_of(holds)) >= expression(*Number::parse(std::to_string(count)))};
+  return {hcsp::at_least(static_cast<std::size_t>(count), open)};
 }
 
 Value Evaluator::comprehension(const Expr& expr) {

@@ -40,6 +40,24 @@ Expr max(Expr a, Expr b) { return binary(Op::max, a, b); }
 Expr sin(Expr a) { return unary(Op::sin, a); }
 Expr cos(Expr a) { return unary(Op::cos, a); }
 Expr atan2(Expr y, Expr x) { return binary(Op::atan2, y, x); }
+Expr exp(Expr a) { return unary(Op::exp, a); }
+Expr log(Expr a) { return unary(Op::log, a); }
+Expr tan(Expr a) { return unary(Op::tan, a); }
+Expr asin(Expr a) { return unary(Op::asin, a); }
+Expr acos(Expr a) { return unary(Op::acos, a); }
+Expr atan(Expr a) { return unary(Op::atan, a); }
+Expr sinh(Expr a) { return unary(Op::sinh, a); }
+Expr cosh(Expr a) { return unary(Op::cosh, a); }
+Expr tanh(Expr a) { return unary(Op::tanh, a); }
+Expr floor(Expr a) { return unary(Op::floor, a); }
+Expr ceil(Expr a) { return unary(Op::ceil, a); }
+Expr sign(Expr a) { return unary(Op::sign, a); }
+Expr pown(Expr a, int n) { return binary(Op::pown, a, constant_beside(a, Interval(n))); }
+Expr pow(Expr a, Expr b) { return binary(Op::pow, a, b); }
+Expr root(Expr a, int n) {
+  require(n >= 1, "Expr: the {}-th root", n);
+  return binary(Op::root, a, constant_beside(a, Interval(n)));
+}
 Expr operator<(Expr a, Expr b) { return binary(Op::less, a, b); }
 Expr operator<=(Expr a, Expr b) { return binary(Op::less_equal, a, b); }
 Expr operator>(Expr a, Expr b) { return binary(Op::less, b, a); }
@@ -49,6 +67,13 @@ Expr operator!=(Expr a, Expr b) { return binary(Op::not_equal, a, b); }
 Expr operator&&(Expr a, Expr b) { return binary(Op::logical_and, a, b); }
 Expr operator||(Expr a, Expr b) { return binary(Op::logical_or, a, b); }
 Expr operator!(Expr a) { return unary(Op::logical_not, a); }
+Expr at_least(std::size_t count, const std::vector<Expr>& relations) {
+  require(!relations.empty(), "Expr: a count of no relations");
+  // Booleans are 0 and 1.
+  Expr holding = relations.front();
+  for (std::size_t i = 1; i < relations.size(); ++i) holding = holding + relations[i];
+  return constant_beside(holding, Interval(static_cast<double>(count))) <= holding;
+}
 Expr if_then_else(Expr condition, Expr then, Expr otherwise) {
   return operate(Op::if_then_else, std::array{condition, then, otherwise});
 }

@@ -40,6 +40,25 @@ Expr max(Expr a, Expr b);
 Expr sin(Expr a);
 Expr cos(Expr a);
 Expr atan2(Expr y, Expr x);
+Expr exp(Expr a);
+Expr log(Expr a);
+Expr tan(Expr a);
+Expr asin(Expr a);
+Expr acos(Expr a);
+Expr atan(Expr a);
+Expr sinh(Expr a);
+Expr cosh(Expr a);
+Expr tanh(Expr a);
+Expr floor(Expr a);
+Expr ceil(Expr a);
+/// -1, 0 or 1.
+Expr sign(Expr a);
+/// a^n for any a; for a != 0 where n is negative.
+Expr pown(Expr a, int n);
+/// exp(b log a) for a > 0, and 0 for a == 0 and b > 0.
+Expr pow(Expr a, Expr b);
+/// The real n-th root, of a negative number for odd n only. Throws std::invalid_argument unless n >= 1.
+Expr root(Expr a, int n);
 Expr operator<(Expr a, Expr b);
 Expr operator<=(Expr a, Expr b);
 Expr operator>(Expr a, Expr b);
@@ -49,6 +68,8 @@ Expr operator!=(Expr a, Expr b);
 Expr operator&&(Expr a, Expr b);
 Expr operator||(Expr a, Expr b);
 Expr operator!(Expr a);
+/// At least `count` of the relations hold; there is one at least.
+Expr at_least(std::size_t count, const std::vector<Expr>& relations);
 /// condition ? then : otherwise, for every value of the condition that is possible.
 Expr if_then_else(Expr condition, Expr then, Expr otherwise);
 

@@ -65,6 +65,36 @@ NodeId partial(Op op, const Builder& b, int k) {
       const NodeId quotient = b.of(Op::div, b.operand(1 - k), squares);
       return k == 0 ? quotient : b.of(Op::neg, quotient);
     }
+    case Op::exp:
+      return b.y;
+    case Op::log:
+      return b.of(Op::div, b.number(1.0), b.operand(0));
+    case Op::tan:
+      return b.of(Op::add, b.number(1.0), b.of(Op::sqr, b.y));
+    case Op::asin:
+    case Op::acos: {
+      const NodeId rest = b.of(Op::sub, b.number(1.0), b.of(Op::sqr, b.operand(0)));
+      return b.of(Op::div, b.number(op == Op::asin ? 1.0 : -1.0), b.of(Op::sqrt, rest));
+    }
+    case Op::atan:
+      return b.of(Op::div, b.number(1.0), b.of(Op::add, b.number(1.0), b.of(Op::sqr, b.operand(0))));
+    case Op::sinh:
+      return b.of(Op::cosh, b.operand(0));
+    case Op::cosh:
+      return b.of(Op::sinh, b.operand(0));
+    case Op::tanh:
+      return b.of(Op::sub, b.number(1.0), b.of(Op::sqr, b.y));
+    case Op::pown:
+      if (k == 1) return no_partial(b.dag, b.y, k);
+      return b.of(Op::mul, b.operand(1),
+                  b.of(Op::pown, b.operand(0), b.number(b.dag[b.operand(1)].value.lo() - 1.0)));
+    case Op::pow:
+      if (k == 1) return b.of(Op::mul, b.y, b.of(Op::log, b.operand(0)));
+      return b.of(Op::mul, b.operand(1),
+                  b.of(Op::pow, b.operand(0), b.of(Op::sub, b.operand(1), b.number(1.0))));
+    case Op::root:
+      if (k == 1) return no_partial(b.dag, b.y, k);
+      return b.of(Op::div, b.y, b.of(Op::mul, b.operand(1), b.operand(0)));
     case Op::if_then_else:
       if (k == 1) return b.choose(b.operand(0), b.number(1.0), b.number(0.0));
       if (k == 2) return b.choose(b.operand(0), b.number(0.0), b.number(1.0));

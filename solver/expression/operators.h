@@ -10,12 +10,17 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <string_view>
 #include <type_traits>
 
+#include "domains/interval/arcs.h"
 #include "domains/interval/atan2.h"
 #include "domains/interval/batch.h"
+#include "domains/interval/exp_log.h"
+#include "domains/interval/functions.h"
 #include "domains/interval/kernel.h"
+#include "domains/interval/pown.h"
 #include "domains/interval/reverse.h"
 #include "domains/interval/sin_cos.h"
 #include "solver/expression/dag.h"
@@ -145,6 +150,129 @@ struct Atan2 {
   static I forward(const I& y, const I& x, const I&) { return up::atan2(y, x); }
   static void backward(const I& angle, I& y, I& x, I&) {
     if (!atan2_rev(angle, y, x)) y = x = I::empty();
+  }
+};
+
+struct Exp : Total {
+  static I forward(const I& a, const I&, const I&) { return up::exp(a); }
+  static void backward(const I& y, I& a, I&, I&) { a = meet(a, up::log(y)); }
+};
+
+struct Log {
+  static bool defined(const I& a, const I&, const I&) { return a.lo() > 0; }
+  static I forward(const I& a, const I&, const I&) { return up::log(a); }
+  static void backward(const I& y, I& a, I&, I&) { a = meet(a, up::exp(y)); }
+};
+
+struct Tan {
+  static bool defined(const I& a, const I&, const I&) { return hcsp::tan(a).is_bounded(); }
+  static I forward(const I& a, const I&, const I&) { return hcsp::tan(a); }
+  static void backward(const I& y, I& a, I&, I&) { a = tan_rev(y, a); }
+};
+
+struct Asin {
+  static bool defined(const I& a, const I&, const I&) { return a.mag() <= 1; }
+  static I forward(const I& a, const I&, const I&) { return hcsp::asin(a); }
+  static void backward(const I& y, I& a, I&, I&) {
+    a = meet(a, up::sin(meet(y, I::raw(-kHalfPiBounds.hi(), kHalfPiBounds.hi()))));
+  }
+};
+
+struct Acos {
+  static bool defined(const I& a, const I&, const I&) { return a.mag() <= 1; }
+  static I forward(const I& a, const I&, const I&) { return hcsp::acos(a); }
+  static void backward(const I& y, I& a, I&, I&) {
+    a = meet(a, up::cos(meet(y, I::raw(0.0, kPiBounds.hi()))));
+  }
+};
+
+struct Atan : Total {
+  static I forward(const I& a, const I&, const I&) { return up::atan(a); }
+  static void backward(const I& y, I& a, I&, I&) {
+    const I known = meet(y, I::raw(-kHalfPiBounds.hi(), kHalfPiBounds.hi()));
+    a = known.is_empty() ? known : meet(a, I::raw(least_tangent(known.lo()), -least_tangent(-known.hi())));
+  }
+  /// A lower bound of the tangents of the angles from here to pi/2, which is above the last double that
+  /// counts.
+  static double least_tangent(double angle) {
+    const double inner = std::min(angle, kHalfPiBounds.lo());
+    return inner < -kHalfPiBounds.lo() ? -kInfinity : hcsp::tan(I::raw(inner, inner)).lo();
+  }
+};
+
+struct Sinh : Total {
+  static I forward(const I& a, const I&, const I&) { return hcsp::sinh(a); }
+  static void backward(const I& y, I& a, I&, I&) { a = meet(a, hcsp::asinh(y)); }
+};
+
+struct Cosh : Total {
+  static I forward(const I& a, const I&, const I&) { return hcsp::cosh(a); }
+  static void backward(const I& y, I& a, I&, I&) { a = cosh_rev(y, a); }
+};
+
+struct Tanh : Total {
+  static I forward(const I& a, const I&, const I&) { return hcsp::tanh(a); }
+  static void backward(const I& y, I& a, I&, I&) { a = meet(a, hcsp::atanh(y)); }
+};
+
+struct Floor : Total {
+  static I forward(const I& a, const I&, const I&) { return hcsp::floor(a); }
+  static void backward(const I& y, I& a, I&, I&) {
+    const I whole = whole_part(y);
+    a = whole.is_empty() ? whole : meet(a, I::raw(whole.lo(), whole.hi() + 1.0));
+  }
+  /// From the least to the greatest whole number in y.
+  static I whole_part(const I& y) {
+    const double lo = std::ceil(y.lo()), hi = std::floor(y.hi());
+    return lo <= hi ? I::raw(lo, hi) : I::empty();
+  }
+};
+
+struct Ceil : Total {
+  static I forward(const I& a, const I&, const I&) { return hcsp::ceil(a); }
+  static void backward(const I& y, I& a, I&, I&) {
+    const I whole = Floor::whole_part(y);
+    a = whole.is_empty() ? whole : meet(a, I::raw(up::sub_down(whole.lo(), 1.0), whole.hi()));
+  }
+};
+
+struct Sign : Total {
+  static I forward(const I& a, const I&, const I&) { return hcsp::sign(a); }
+  static void backward(const I& y, I& a, I&, I&) {
+    I possible = I::empty();
+    if (y.contains(-1.0)) possible = join(possible, I::raw(-kInfinity, 0.0));
+    if (y.contains(0.0)) possible = join(possible, I::raw(0.0, 0.0));
+    if (y.contains(1.0)) possible = join(possible, I::raw(0.0, kInfinity));
+    a = meet(a, possible);
+  }
+};
+
+/// a^n for a constant whole n.
+struct Pown {
+  static int exponent(const I& n) { return static_cast<int>(n.lo()); }
+  static bool defined(const I& a, const I& n, const I&) { return n.lo() >= 0 || (a.lo() > 0) | (a.hi() < 0); }
+  static I forward(const I& a, const I& n, const I&) { return up::pown(a, exponent(n)); }
+  static void backward(const I& y, I& a, I& n, I&) { a = pown_rev(y, a, exponent(n)); }
+};
+
+/// a^b = exp(b log a), 0 for a == 0 < b.
+struct Pow {
+  static bool defined(const I& a, const I& b, const I&) { return a.lo() > 0 || (a.lo() >= 0 && b.lo() > 0); }
+  static I forward(const I& a, const I& b, const I&) { return hcsp::pow(a, b); }
+  static void backward(const I& y, I& a, I& b, I&) {
+    a = pow_rev1(b, y, a);
+    b = pow_rev2(a, y, b);
+  }
+};
+
+/// The real n-th root for a constant whole n >= 1; of a negative number for odd n only.
+struct Root {
+  static bool is_odd(const I& n) { return Pown::exponent(n) % 2 != 0; }
+  static bool defined(const I& a, const I& n, const I&) { return is_odd(n) || a.lo() >= 0; }
+  static I forward(const I& a, const I& n, const I&) { return up::rootn(a, Pown::exponent(n)); }
+  static void backward(const I& y, I& a, I& n, I&) {
+    const I possible = is_odd(n) ? y : meet(y, I::raw(0.0, kInfinity));
+    a = meet(a, up::pown(possible, Pown::exponent(n)));
   }
 };
 
@@ -283,6 +411,21 @@ inline constexpr bool is_total = std::is_base_of_v<Total, Operator> && !std::is_
   X(sin, Sin, "sin", 1)                \
   X(cos, Cos, "cos", 1)                \
   X(atan2, Atan2, "atan2", 2)          \
+  X(exp, Exp, "exp", 1)                \
+  X(log, Log, "log", 1)                \
+  X(tan, Tan, "tan", 1)                \
+  X(asin, Asin, "asin", 1)             \
+  X(acos, Acos, "acos", 1)             \
+  X(atan, Atan, "atan", 1)             \
+  X(sinh, Sinh, "sinh", 1)             \
+  X(cosh, Cosh, "cosh", 1)             \
+  X(tanh, Tanh, "tanh", 1)             \
+  X(floor, Floor, "floor", 1)          \
+  X(ceil, Ceil, "ceil", 1)             \
+  X(sign, Sign, "sign", 1)             \
+  X(pown, Pown, "^", 2)                \
+  X(pow, Pow, "^", 2)                  \
+  X(root, Root, "root", 2)             \
   X(less, Less, "<", 2)                \
   X(less_equal, LessEqual, "<=", 2)    \
   X(equal, Equal, "==", 2)             \

@@ -71,6 +71,41 @@ Interval truth_at(Op op, const Operands& x) {
     case Op::atan2:
       return a == 0 && b == 0 ? Interval::empty()
                               : oracle::truth(mpfr_atan2, a == 0 ? 0.0 : a, b == 0 ? 0.0 : b);
+    case Op::exp:
+      return oracle::truth(mpfr_exp, a);
+    case Op::log:
+      return a <= 0 ? Interval::empty() : oracle::truth(mpfr_log, a);
+    case Op::tan:
+      return oracle::truth(mpfr_tan, a);
+    case Op::asin:
+      return std::abs(a) > 1 ? Interval::empty() : oracle::truth(mpfr_asin, a);
+    case Op::acos:
+      return std::abs(a) > 1 ? Interval::empty() : oracle::truth(mpfr_acos, a);
+    case Op::atan:
+      return oracle::truth(mpfr_atan, a);
+    case Op::sinh:
+      return oracle::truth(mpfr_sinh, a);
+    case Op::cosh:
+      return oracle::truth(mpfr_cosh, a);
+    case Op::tanh:
+      return oracle::truth(mpfr_tanh, a);
+    case Op::floor:
+      return Interval(std::floor(a));
+    case Op::ceil:
+      return Interval(std::ceil(a));
+    case Op::sign:
+      return Interval(a > 0 ? 1.0 : (a < 0 ? -1.0 : 0.0));
+    case Op::pown:
+      return a == 0 && b < 0 ? Interval::empty() : oracle::truth(mpfr_pow, a, b);
+    case Op::pow:
+      return a < 0 || (a == 0 && b <= 0) ? Interval::empty() : oracle::truth(mpfr_pow, a == 0 ? 0.0 : a, b);
+    case Op::root: {
+      if (a < 0 && std::fmod(b, 2.0) == 0) return Interval::empty();
+      const auto rooted = [](mpfr_ptr r, mpfr_srcptr v, mpfr_srcptr n, mpfr_rnd_t mode) {
+        return mpfr_rootn_ui(r, v, mpfr_get_ui(n, MPFR_RNDN), mode);
+      };
+      return oracle::truth(+rooted, a, b);
+    }
     case Op::less:
       return boolean(a < b);
     case Op::less_equal:
@@ -90,7 +125,11 @@ Interval truth_at(Op op, const Operands& x) {
   }
 }
 
+/// The exponent of a power, the degree of a root.
+bool takes_whole_constant(Op op, int k) { return k == 1 && (op == Op::pown || op == Op::root); }
+
 Interval random_operand(Dice& dice, Op op, int k) {
+  if (takes_whole_constant(op, k)) return Interval(op == Op::root ? 1 + dice.below(9) : dice.below(15) - 5);
   if (!takes_booleans(op, k))
     return dice.below(3) == 0 ? oracle::around(dice, oracle::dyadic(dice, -4, 4)) : dice.interval();
   return std::array{kTrue, kFalse, kEither}[static_cast<std::size_t>(dice.below(3))];
@@ -196,13 +235,25 @@ TEST_P(EveryOperator, HasAnEntryInTheTable) {
 
 // Mean value theorem: on a box where the operator is defined, a difference quotient is a value of the
 // derivative, and for a Lipschitz function lies in the hull of its one-sided derivatives.
-class EveryFunction : public EveryOperator {};
+class EveryFunction : public EveryOperator {
+ protected:
+  void expect_partials(Dag& dag, NodeId node, int count, int degree) const;
+};
 
 TEST_P(EveryFunction, PartialsEncloseDifferenceQuotients) {
   Dag dag;
-  const NodeId inputs[] = {dag.input({Input::Kind::real, 0, 0, 0}), dag.input({Input::Kind::real, 1, 0, 0})};
-  const NodeId node = dag.apply(at.op, {inputs[0], inputs[1]}, at.arity);
-  for (int k = 0; k < at.arity; ++k) {
+  for (int degree = 1; degree <= 6; ++degree) {
+    const NodeId x = dag.input({Input::Kind::real, 0, 0, 0});
+    const bool is_constant = takes_whole_constant(at.op, 1);
+    const NodeId y = is_constant ? dag.constant(Interval(degree)) : dag.input({Input::Kind::real, 1, 0, 0});
+    expect_partials(dag, dag.apply(at.op, {x, y}, at.arity), is_constant ? 1 : at.arity, degree);
+    if (!is_constant) break;
+  }
+}
+
+// With regard to the first `count` operands of a node, of which the second may be the constant `degree`.
+void EveryFunction::expect_partials(Dag& dag, NodeId node, int count, int degree) const {
+  for (int k = 0; k < count; ++k) {
     const auto moved = static_cast<std::size_t>(k);
     const Program program(dag, {operator_entry(at.op).partial(dag, node, k)});
     for_seeds(500, [&](Dice& dice) {
@@ -211,6 +262,7 @@ TEST_P(EveryFunction, PartialsEncloseDifferenceQuotients) {
         const double a = oracle::dyadic(dice, -6, 6), b = oracle::dyadic(dice, -6, 6);
         side = Interval(std::min(a, b), std::max(a, b));
       }
+      if (count < at.arity) box[1] = Interval(degree);
       if (box[moved].is_point() || !at.defined(box[0], box[1], box[2])) return;
       if (at.op == Op::atan2 && box[0].contains(0) && box[1].lo() < 0) return;  // it jumps there
       Operands p = point_in(dice, box), q = p;
@@ -239,13 +291,20 @@ std::string name_of(const ::testing::TestParamInfo<Tested>& info) {
 
 INSTANTIATE_TEST_SUITE_P(Table, EveryOperator, ::testing::ValuesIn(kTable), name_of);
 
-// Those with values in the reals and a derivative with regard to every operand: they stand first in the
-// table.
-INSTANTIATE_TEST_SUITE_P(Table, EveryFunction,
-                         ::testing::ValuesIn(std::begin(kTable),
-                                             std::find_if(std::begin(kTable), std::end(kTable),
-                                                          [](const Tested& t) { return is_boolean(t.op); })),
-                         name_of);
+// Those with values in the reals and a derivative.
+std::vector<Tested> differentiable() {
+  std::vector<Tested> all;
+  for (const Tested& t : kTable) {
+    const bool jumps = t.op == Op::floor || t.op == Op::ceil || t.op == Op::sign;
+    if (!is_boolean(t.op) && !jumps && t.op != Op::if_then_else) all.push_back(t);
+  }
+  return all;
+}
+
+INSTANTIATE_TEST_SUITE_P(Table, EveryFunction, ::testing::ValuesIn(differentiable()),
+                         [](const ::testing::TestParamInfo<Tested>& info) {
+                           return fmt::format("Op{}", static_cast<int>(info.param.op));
+                         });
 
 TEST(IfThenElse, HasThePartialOfTheBranchThatIsTaken) {
   Dag dag;

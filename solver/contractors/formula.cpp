@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "solver/contractors/formula.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "solver/expression/operators.h"
+
+namespace hcsp {
+
+Formula::Formula(const Dag& dag, NodeId relation, const Program& whole)
+    : Formula(make(dag, relation, true, whole)) {}
+
+namespace {
+
+// The relations of a count `k <= c1 + c2 + ...`; none where the node is no count.
+std::vector<NodeId> counted(const Dag& dag, NodeId sum) {
+  std::vector<NodeId> open{sum}, relations;
+  while (!open.empty()) {
+    const DagNode& node = dag[open.back()];
+    const NodeId id = open.back();
+    open.pop_back();
+    if (node.op == Op::add) {
+      open.insert(open.end(), {node.operands[0], node.operands[1]});
+    } else if (is_boolean(node.op)) {
+      relations.push_back(id);
+    } else {
+      return {};
+    }
+  }
+  return relations;
+}
+
+}  // namespace
+
+// Negations are pushed down to the atoms: a connective is true of what its operands are false of.
+Formula Formula::make(const Dag& dag, NodeId id, bool wanted, const Program& whole) {
+  const DagNode& node = dag[id];
+  if (node.op == Op::logical_not) return make(dag, node.operands[0], !wanted, whole);
+  if (node.op == Op::logical_and || node.op == Op::logical_or) {
+    std::vector<NodeId> relations;
+    collect(dag, id, node.op, relations);
+    return count(dag, relations, node.op == Op::logical_and ? relations.size() : 1, wanted, whole);
+  }
+  if (node.op == Op::less_equal && dag[node.operands[0]].op == Op::constant) {
+    const std::vector<NodeId> relations = counted(dag, node.operands[1]);
+    const double least = dag[node.operands[0]].value.lo();
+    if (relations.size() > 1 && least >= 1 && least <= static_cast<double>(relations.size()))
+      return count(dag, relations, static_cast<std::size_t>(std::ceil(least)), wanted, whole);
+  }
+  Formula formula;
+  if (node.op == Op::if_then_else) {
+    formula.least_ = 1;
+    for (const bool taken : {true, false}) {
+      Formula& branch = formula.parts_.emplace_back(Formula());
+      branch.least_ = 2;
+      branch.parts_.push_back(make(dag, node.operands[0], taken, whole));
+      branch.parts_.push_back(make(dag, node.operands[taken ? 1 : 2], wanted, whole));
+    }
+    return formula;
+  }
+  formula.wanted_ = wanted;
+  formula.atom_ = std::make_unique<Atom>(Program(dag, {id}));
+  const std::vector<Input>& inputs = whole.inputs();
+  for (const Input& input : formula.atom_->program.inputs())
+    formula.atom_->places.push_back(
+        static_cast<std::size_t>(std::find(inputs.begin(), inputs.end(), input) - inputs.begin()));
+  return formula;
+}
+
+// The operands of a chain of one connective.
+void Formula::collect(const Dag& dag, NodeId node, Op connective, std::vector<NodeId>& parts) {
+  std::vector<NodeId> open{node};
+  while (!open.empty()) {
+    const NodeId id = open.back();
+    open.pop_back();
+    if (dag[id].op == connective) {
+      open.insert(open.end(), {dag[id].operands[1], dag[id].operands[0]});
+    } else {
+      parts.push_back(id);
+    }
+  }
+}
+
+// At least `least` of n relations hold, or not: then at least n - least + 1 of them fail.
+Formula Formula::count(const Dag& dag, const std::vector<NodeId>& relations, std::size_t least, bool wanted,
+                       const Program& whole) {
+  Formula formula;
+  formula.least_ = wanted ? least : relations.size() - least + 1;
+  for (const NodeId relation : relations) formula.parts_.push_back(make(dag, relation, wanted, whole));
+  return formula;
+}
+
+bool Formula::has_alternatives() const {
+  return least_ < parts_.size() || std::any_of(parts_.begin(), parts_.end(),
+                                               [](const Formula& part) { return part.has_alternatives(); });
+}
+
+bool Formula::contract(std::vector<Interval>& inputs) {
+  return atom_ != nullptr ? contract_atom(inputs) : contract_parts(inputs);
+}
+
+bool Formula::contract_atom(std::vector<Interval>& inputs) {
+  Evaluation& evaluation = atom_->evaluation;
+  for (std::uint32_t i = 0; i < atom_->places.size(); ++i) evaluation.set(i, inputs[atom_->places[i]]);
+  evaluation.forward();
+  if (!evaluation.backward(wanted_ ? kTrue : kFalse)) return false;
+  for (std::uint32_t i = 0; i < atom_->places.size(); ++i) inputs[atom_->places[i]] = evaluation.get(i);
+  return true;
+}
+
+bool Formula::contract_parts(std::vector<Interval>& inputs) {
+  if (least_ == parts_.size())
+    return std::all_of(parts_.begin(), parts_.end(), [&](Formula& part) { return part.contract(inputs); });
+  std::vector<std::vector<Interval>> left;
+  for (Formula& part : parts_) {
+    std::vector<Interval> own = inputs;
+    if (part.contract(own)) left.push_back(std::move(own));
+  }
+  if (left.size() < least_) return false;
+  std::vector<Interval> values(left.size());
+  bool alive = true;
+  for (std::size_t i = 0; i < inputs.size(); ++i) {
+    for (std::size_t k = 0; k < left.size(); ++k) values[k] = left[k][i];
+    inputs[i] = in_at_least(least_, values);
+    alive = alive && !inputs[i].is_empty();
+  }
+  return alive;
+}
+
+}  // namespace hcsp

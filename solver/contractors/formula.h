@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+// A relation as a formula of atoms, contracted constructively: of alternatives, each contracts a copy of the
+// box by itself, and what at least as many of them keep as have to hold is kept.
+#pragma once
+
+#include <algorithm>
+#include <memory>
+#include <vector>
+
+#include "solver/expression/program.h"
+
+namespace hcsp {
+
+/// What lies in at least `count` of some elements of a lattice, 1 <= count <= size: the join over all choices
+/// of `count` of their meets, in that many times size operations (the q-relaxed intersection of Jaulin, Set
+/// Membership Approach for Underwater Robotics, 2009, with q = size - count).
+template <class D>
+D in_at_least(std::size_t count, const std::vector<D>& elements) {
+  std::vector<D> kept;  // what lies in at least 1, 2, ... of the elements so far
+  for (const D& element : elements) {
+    if (kept.size() < count) kept.push_back(kept.empty() ? element : meet(kept.back(), element));
+    const std::size_t known = std::min(kept.size(), static_cast<std::size_t>(&element - elements.data()));
+    for (std::size_t j = known; j-- > 0;)
+      kept[j] = join(kept[j], j == 0 ? element : meet(kept[j - 1], element));
+  }
+  return kept.back();
+}
+
+class Formula {
+ public:
+  /// Of the relation at a node; the inputs are those of `whole`, the program of that relation, in its order.
+  Formula(const Dag& dag, NodeId relation, const Program& whole);
+
+  /// Whether plain HC4-revise would wait for all alternatives of an `or` but one to fail.
+  [[nodiscard]] bool has_alternatives() const;
+  /// Contracts values of the inputs to where the relation can hold; false when it nowhere can. The thread
+  /// rounds upward.
+  bool contract(std::vector<Interval>& inputs);
+
+ private:
+  struct Atom {
+    explicit Atom(Program compiled) : program(std::move(compiled)), evaluation(program) {}
+    Program program;
+    Evaluation evaluation;
+    std::vector<std::size_t> places;  // of its inputs among those of the whole
+  };
+  Formula() = default;
+  static Formula make(const Dag& dag, NodeId node, bool wanted, const Program& whole);
+  static void collect(const Dag& dag, NodeId node, Op connective, std::vector<NodeId>& parts);
+  static Formula count(const Dag& dag, const std::vector<NodeId>& relations, std::size_t least, bool wanted,
+                       const Program& whole);
+  bool contract_atom(std::vector<Interval>& inputs);
+  bool contract_parts(std::vector<Interval>& inputs);
+
+  std::unique_ptr<Atom> atom_;  // or else parts
+  bool wanted_ = true;          // of the atom: the truth that it has to have
+  std::size_t least_ = 0;       // of the parts: how many have to hold
+  std::vector<Formula> parts_;
+};
+
+}  // namespace hcsp
