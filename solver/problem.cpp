@@ -8,6 +8,7 @@
 #include "domains/rounding.h"
 #include "solver/contractors/derivative.h"
 #include "solver/contractors/disjoint.h"
+#include "solver/contractors/integrality.h"
 #include "solver/contractors/meets.h"
 #include "solver/contractors/relation.h"
 #include "solver/contractors/set_union.h"
@@ -81,6 +82,19 @@ RealVariable Problem::real(std::string name, const Interval& domain) {
   return {impl_->add(name, domain, DomainKind::real)};
 }
 
+IntegerVariable Problem::integer(std::string name, const Interval& domain) {
+  const VariableId id = impl_->add(name, domain, DomainKind::real);
+  impl_->shapes[id].scalar = Shape::Scalar::whole;
+  impl_->graph.add_contractor(make_integrality_contractor(name + " is whole", id));
+  return {id};
+}
+
+BooleanVariable Problem::boolean(std::string name) {
+  const VariableId id = integer(std::move(name), Interval(0.0, 1.0)).id;
+  impl_->shapes[id].scalar = Shape::Scalar::boolean;
+  return {id};
+}
+
 VectorVariable Problem::vector(std::string name, const Box& domain) {
   require(domain.dim() > 0, "Problem: the vector {} has no components", name);
   return {impl_->add(name, domain, DomainKind::vector), static_cast<std::size_t>(domain.dim())};
@@ -139,6 +153,11 @@ Expr Problem::component(VectorVariable x, std::size_t i) {
 
 Expr Problem::constant(const Interval& value) { return {impl_->dag, impl_->dag.constant(value)}; }
 Expr Problem::operator()(RealVariable x) { return impl_->input(Input::Kind::real, x.id, 0); }
+Expr Problem::operator()(IntegerVariable x) { return impl_->input(Input::Kind::real, x.id, 0); }
+// Between the two values, so that either truth of the relation leaves but one of them.
+Expr Problem::operator()(BooleanVariable x) {
+  return impl_->input(Input::Kind::real, x.id, 0) > Interval(0.5);
+}
 VectorExpr Problem::operator()(VectorVariable x) { return impl_->inputs(Input::Kind::vector, x.id, x.dim); }
 VectorExpr Problem::operator()(TubeVariable x) { return impl_->inputs(Input::Kind::tube, x.id, x.dim); }
 

@@ -24,6 +24,12 @@ namespace hcsp {
 struct RealVariable {
   VariableId id;
 };
+struct IntegerVariable {
+  VariableId id;
+};
+struct BooleanVariable {
+  VariableId id;
+};
 struct VectorVariable {
   VariableId id;
   std::size_t dim;
@@ -61,6 +67,9 @@ class Problem {
   // Unknowns. Names are unique: std::invalid_argument otherwise. A domain is what is known before any
   // constraint.
   RealVariable real(std::string name, const Interval& domain = {});
+  /// A whole number: only those of the domain count.
+  IntegerVariable integer(std::string name, const Interval& domain = {});
+  BooleanVariable boolean(std::string name);
   VectorVariable vector(std::string name, const Box& domain);
   /// A matrix, as the vector of its components row after row.
   VectorVariable matrix(std::string name, std::size_t rows, const Box& domain);
@@ -79,6 +88,9 @@ class Problem {
   // Expressions over the unknowns.
   Expr constant(const Interval& value);
   Expr operator()(RealVariable x);
+  Expr operator()(IntegerVariable x);
+  /// A relation: it holds when x is true.
+  Expr operator()(BooleanVariable x);
   VectorExpr operator()(VectorVariable x);
   Expr component(VectorVariable x, std::size_t i);
   /// The tube at the time at hand.

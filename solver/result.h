@@ -26,6 +26,8 @@ using Domain = std::variant<Interval, Box, Tube, SetInterval>;
 
 /// How a result writes an unknown down, beyond its domain.
 struct Shape {
+  enum class Scalar : std::uint8_t { real, whole, boolean };
+  Scalar scalar = Scalar::real;
   std::size_t columns = 0;   ///< of a matrix; 0 of anything else
   std::string array;         ///< the array that it is an element of, if any
   std::vector<int> indices;  ///< and where in it

@@ -263,9 +263,7 @@ void Checker::check_variable(Symbol& symbol, const VarItem& item) {
       return;
     }
   }
-  Type type = resolve(*item.type);
-  if (type.whole || type.is(Type::Kind::boolean))
-    type = not_supported(item.type->range, type.whole ? "an unknown of type int" : "an unknown of type bool");
+  const Type type = resolve(*item.type);
   if (item.precision != nullptr && !item.type->set) {
     diagnostics().report(Code::misplaced_precision, item.precision->range, describe(type));
   } else if (item.precision != nullptr) {

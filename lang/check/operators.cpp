@@ -164,6 +164,10 @@ Type Checker::check_tolerance(const Expr& expr, const Type& a, const Type& b) {
 
 Type Checker::check_comparison(const Expr& expr, const Type& a, const Type& b) {
   if (a.is(Type::Kind::domain) || b.is(Type::Kind::domain)) return domain_in_expression(expr);
+  const bool truths =
+      a.is(Type::Kind::boolean) && b.is(Type::Kind::boolean) && !a.is_array() && !b.is_array();
+  if (truths && (expr.op == Operator::equal || expr.op == Operator::not_equal))
+    return check_logic(expr, a, b);
   const bool sets = a.is(Type::Kind::set) && b.is(Type::Kind::set) && expr.op == Operator::equal;
   if (!sets && (!a.is(Type::Kind::real) || !b.is(Type::Kind::real))) return wrong_operands(expr, a, b);
   if (!a.has_shape_of(b)) {

@@ -209,6 +209,7 @@ std::optional<Unknowns::Handle> Compiler::make_tube(const Symbol& symbol, const 
 std::optional<Unknowns::Handle> Compiler::make_plain(const Symbol& symbol, const std::string& name,
                                                      std::size_t element) {
   const Type& type = symbol.type;
+  if (type.is(Type::Kind::boolean)) return problem_->boolean(name);
   Box box(static_cast<Eigen::Index>(type.components()));
   if (const Expr* domain = stated_domain(symbol)) {
     // A domain of one element serves them all.
@@ -221,6 +222,7 @@ std::optional<Unknowns::Handle> Compiler::make_plain(const Symbol& symbol, const
   }
   if (type.is_matrix()) return problem_->matrix(name, type.dim, box);
   if (type.dim != 0) return problem_->vector(name, box);
+  if (type.whole) return problem_->integer(name, box[0]);
   return problem_->real(name, box[0]);
 }
 

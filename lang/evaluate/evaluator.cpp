@@ -217,6 +217,8 @@ Value Evaluator::value_of_kind(const Expr& expr) {
 std::optional<hcsp::Expr> Unknowns::component(const Handle& handle, std::size_t i,
                                               std::optional<double> instant) const {
   if (const auto* real = std::get_if<RealVariable>(&handle)) return problem(*real);
+  if (const auto* integer = std::get_if<IntegerVariable>(&handle)) return problem(*integer);
+  if (const auto* boolean = std::get_if<BooleanVariable>(&handle)) return problem(*boolean);
   if (const auto* vector = std::get_if<VectorVariable>(&handle)) return problem.component(*vector, i);
   const auto* tube = std::get_if<TubeVariable>(&handle);
   if (tube == nullptr) return {};
@@ -432,6 +434,8 @@ Term Evaluator::power_of(const Term& base, int exponent) {
 
 Value Evaluator::relation(const Expr& expr, const Value& a, const Value& b) {
   const bool any = expr.op == Operator::not_equal;
+  if (model_.type(*expr.operands[0]).is(Type::Kind::boolean))
+    return {connect(any ? Operator::logical_xor : Operator::iff, a.front(), b.front())};
   std::optional<hcsp::Expr> all;
   for (std::size_t i = 0; i < a.size(); ++i) {
     if (const auto known = known_relation(expr.op, a[i], b[i])) {

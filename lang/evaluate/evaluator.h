@@ -23,7 +23,8 @@ Term boolean(bool truth);
 
 /// The unknowns of a Problem by the symbol that they were declared as.
 struct Unknowns {
-  using Handle = std::variant<RealVariable, VectorVariable, TubeVariable, SetVariable>;
+  using Handle =
+      std::variant<RealVariable, IntegerVariable, BooleanVariable, VectorVariable, TubeVariable, SetVariable>;
   Problem& problem;
   /// One; of an array one an element, the last index fastest.
   std::unordered_map<const Symbol*, std::vector<Handle>> handles;

@@ -45,12 +45,18 @@ void put_numbers(TextBuffer& out, NumberTexts& texts, std::span<const double> va
   put_list(out, values.size(), [&](std::size_t i) { put_number(out, texts, values[i]); });
 }
 
-void put_domain(TextBuffer& out, NumberTexts&, const Interval& x) {
-  put(out, R"("kind": "real", "lo": )");
+void put_bounds(TextBuffer& out, std::string_view kind, const Interval& x) {
+  fmt::format_to(fmt::appender(out), R"("kind": "{}", "lo": )", kind);
   put_json_number(out, x.lo());
   put(out, R"(, "hi": )");
   put_json_number(out, x.hi());
 }
+
+void put_boolean(TextBuffer& out, const Interval& x) {
+  fmt::format_to(fmt::appender(out), R"("kind": "bool", "lo": {}, "hi": {})", x.lo() != 0, x.hi() != 0);
+}
+
+void put_domain(TextBuffer& out, NumberTexts&, const Interval& x) { put_bounds(out, "real", x); }
 
 void put_domain(TextBuffer& out, NumberTexts&, const Box& x) {
   const auto component = [&](std::size_t i) -> const Interval& { return x[static_cast<Eigen::Index>(i)]; };
@@ -128,7 +134,11 @@ void put_variable(TextBuffer& out, NumberTexts& texts, const ResultVariable& var
     return;
   }
   put(out, "{ ");
-  if (variable.shape.columns != 0) {
+  if (variable.shape.scalar == Shape::Scalar::boolean) {
+    put_boolean(out, std::get<Interval>(variable.domain));
+  } else if (variable.shape.scalar == Shape::Scalar::whole) {
+    put_bounds(out, "int", std::get<Interval>(variable.domain));
+  } else if (variable.shape.columns != 0) {
     put_matrix(out, std::get<Box>(variable.domain), variable.shape.columns);
   } else {
     std::visit([&](const auto& domain) { put_domain(out, texts, domain); }, variable.domain);
