@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/soundness/random_relation.h"
 
+#include "domains/interval/functions.h"
+#include "domains/interval/numeric.h"
+
 namespace hcsp::soundness {
 
 Truth operator!(Truth a) { return a == Truth::unsure ? a : (a == Truth::yes ? Truth::no : Truth::yes); }
@@ -67,6 +70,59 @@ Term unary(int which, const Term& a) {
               default:
                 return {cos(value), defined};
             }
+          }};
+}
+
+Term elementary(int which, const Term& a) {
+  using Unary = TermValue (*)(const Interval&);
+  struct Function {
+    Expr (*of_expression)(Expr);
+    Unary of_value;
+  };
+  static const Function kFunctions[] = {
+      {[](Expr e) { return exp(e); },
+       [](const Interval& v) {
+         return TermValue{exp(v), Truth::yes};
+       }},
+      {[](Expr e) { return log(e); },
+       [](const Interval& v) {
+         return TermValue{log(v), truth(v.lo() > 0, v.hi() <= 0)};
+       }},
+      {[](Expr e) { return atan(e); },
+       [](const Interval& v) {
+         return TermValue{atan(v), Truth::yes};
+       }},
+      {[](Expr e) { return tanh(e); },
+       [](const Interval& v) {
+         return TermValue{tanh(v), Truth::yes};
+       }},
+      {[](Expr e) { return asin(e); },
+       [](const Interval& v) {
+         return TermValue{asin(v), truth(v.mag() <= 1, mig(v) > 1)};
+       }},
+      {[](Expr e) { return pown(e, 3); },
+       [](const Interval& v) {
+         return TermValue{pown(v, 3), Truth::yes};
+       }},
+      {[](Expr e) { return pown(e, -1); },
+       [](const Interval& v) {
+         return TermValue{pown(v, -1), truth(!v.contains(0), v == Interval(0))};
+       }},
+      {[](Expr e) { return root(e, 3); },
+       [](const Interval& v) {
+         return TermValue{rootn(v, 3), Truth::yes};
+       }},
+      {[](Expr e) { return floor(e); },
+       [](const Interval& v) {
+         return TermValue{floor(v), Truth::yes};
+       }},
+  };
+  const Function& function = kFunctions[which];
+  return {function.of_expression(a.expression), [function, f = a.at](const Place& place) -> TermValue {
+            const auto [value, defined] = f(place);
+            if (value.is_empty()) return {Interval::empty(), Truth::no};
+            const TermValue image = function.of_value(value);
+            return {image.value, defined && image.defined};
           }};
 }
 
@@ -157,6 +213,20 @@ Relation operator&&(const Relation& a, const Relation& b) {
           [f = a.at, g = b.at](const Place& place) { return f(place) && g(place); }};
 }
 
+Relation count(int least, const std::vector<Relation>& relations) {
+  std::vector<Expr> expressions;
+  for (const Relation& relation : relations) expressions.push_back(relation.expression);
+  return {at_least(static_cast<std::size_t>(least), expressions), [=](const Place& place) {
+            int surely = 0, possibly = 0;
+            for (const Relation& relation : relations) {
+              const Truth holds = relation.at(place);
+              surely += holds == Truth::yes ? 1 : 0;
+              possibly += holds != Truth::no ? 1 : 0;
+            }
+            return surely >= least ? Truth::yes : (possibly < least ? Truth::no : Truth::unsure);
+          }};
+}
+
 Relation operator!(const Relation& a) {
   return {!a.expression, [f = a.at](const Place& place) { return !f(place); }};
 }
@@ -175,8 +245,9 @@ Term RandomRelations::leaf() {
 
 Term RandomRelations::term(int depth) {
   if (depth == 0 || random_.chance(0.15)) return leaf();
-  const int kind = random_.integer(0, 14);
+  const int kind = random_.integer(0, 16);
   if (kind <= 5) return unary(kind, term(depth - 1));
+  if (kind >= 15) return elementary(random_.integer(0, 8), term(depth - 1));
   if (kind <= 12) {
     const Term first = term(depth - 1);
     return binary(kind - 6, first, random_.chance(0.15) ? first : term(depth - 1));
@@ -186,7 +257,7 @@ Term RandomRelations::term(int depth) {
 }
 
 Relation RandomRelations::relation(int depth) {
-  const int kind = depth == 0 ? 9 : random_.integer(0, 9);
+  const int kind = depth == 0 ? 10 : random_.integer(0, 10);
   if (kind == 0) return !relation(depth - 1);
   if (kind <= 2) return relation(depth - 1) && relation(depth - 1);
   if (kind == 3) {
@@ -194,6 +265,7 @@ Relation RandomRelations::relation(int depth) {
     return {a.expression || b.expression,
             [f = a.at, g = b.at](const Place& place) { return f(place) || g(place); }};
   }
+  if (kind == 4) return count(random_.integer(1, 3), {relation(depth - 1), relation(depth - 1), relation(0)});
   const Term a = term(depth), b = term(depth > 0 ? depth - 1 : 0);
   return relate(random_.chance(0.15) ? random_.integer(4, 5) : random_.integer(0, 3), a, b);
 }

@@ -55,5 +55,7 @@ Truth operator&&(Truth a, Truth b);
 Relation relate(int which, const Term& a, const Term& b);
 Relation operator&&(const Relation& a, const Relation& b);
 Relation operator!(const Relation& a);
+/// At least so many of the relations hold.
+Relation count(int least, const std::vector<Relation>& relations);
 
 }  // namespace hcsp::soundness
