@@ -4,44 +4,64 @@
 #include <algorithm>
 #include <map>
 #include <type_traits>
+#include <unordered_map>
+#include <unordered_set>
 
 #include "domains/check.h"
 #include "solver/expression/operators.h"
 
 namespace hcsp {
 
-Program::Program(const Dag& dag, const std::vector<NodeId>& roots) {
-  // The nodes that the roots need; an index order is an evaluation order.
-  std::vector<bool> needed(dag.size(), false);
-  for (const NodeId root : roots) needed[root] = true;
-  for (std::size_t id = dag.size(); id-- > 0;) {
-    const DagNode& node = dag[static_cast<NodeId>(id)];
-    const int arity = operator_entry(node.op).arity;
-    for (int k = 0; needed[id] && k < arity; ++k) needed[node.operands[static_cast<std::size_t>(k)]] = true;
+namespace {
+
+/// The nodes that the roots need, in the order of their indices, which is an evaluation order. Costs what
+/// there are of them, however large the graph.
+std::vector<NodeId> needed_nodes(const Dag& dag, const std::vector<NodeId>& roots) {
+  std::vector<NodeId> needed = roots, open = roots;
+  std::unordered_set<NodeId> seen(roots.begin(), roots.end());
+  while (!open.empty()) {
+    const DagNode& node = dag[open.back()];
+    open.pop_back();
+    for (int k = 0; k < operator_entry(node.op).arity; ++k) {
+      const NodeId operand = node.operands[static_cast<std::size_t>(k)];
+      if (!seen.insert(operand).second) continue;
+      needed.push_back(operand);
+      open.push_back(operand);
+    }
   }
+  std::sort(needed.begin(), needed.end());
+  needed.erase(std::unique(needed.begin(), needed.end()), needed.end());
+  return needed;
+}
+
+}  // namespace
+
+Program::Program(const Dag& dag, const std::vector<NodeId>& roots) {
+  const std::vector<NodeId> needed = needed_nodes(dag, roots);
   const auto assign = [&](NodeId id) { places_[id] = static_cast<std::uint32_t>(registers_++); };
-  for (NodeId id = 0; id < dag.size(); ++id) {
-    if (!needed[id] || dag[id].op != Op::input) continue;
+  for (const NodeId id : needed) {
+    if (dag[id].op != Op::input) continue;
     inputs_.push_back(dag[id].input);
     assign(id);
   }
-  for (NodeId id = 0; id < dag.size(); ++id) {
-    if (!needed[id] || dag[id].op != Op::constant) continue;
+  for (const NodeId id : needed) {
+    if (dag[id].op != Op::constant) continue;
     constants_.push_back(dag[id].value);
     assign(id);
   }
-  std::vector<unsigned> axes(dag.size(), 0);  // of the bound point, by node
-  for (NodeId id = 0; id < dag.size(); ++id) {
+  std::unordered_map<NodeId, unsigned> axes;  // of the bound point
+  for (const NodeId id : needed) {
     const DagNode& node = dag[id];
-    if (node.op == Op::input && node.input.kind == Input::Kind::point) axes[id] = 1U << node.input.component;
+    unsigned& own = axes[id];
+    if (node.op == Op::input && node.input.kind == Input::Kind::point) own = 1U << node.input.component;
     for (int k = 0; k < operator_entry(node.op).arity; ++k)
-      axes[id] |= axes[node.operands[static_cast<std::size_t>(k)]];
+      own |= axes.at(node.operands[static_cast<std::size_t>(k)]);
   }
   for (const bool with_point : {false, true}) {
-    for (NodeId id = 0; id < dag.size(); ++id) {
+    for (const NodeId id : needed) {
       const DagNode& node = dag[id];
       const int arity = operator_entry(node.op).arity;
-      if (!needed[id] || arity == 0 || (axes[id] != 0) != with_point) continue;
+      if (arity == 0 || (axes.at(id) != 0) != with_point) continue;
       assign(id);
       const auto operand = [&](int k) {
         return places_.at(node.operands[static_cast<std::size_t>(k < arity ? k : 0)]);
@@ -52,7 +72,7 @@ Program::Program(const Dag& dag, const std::vector<NodeId>& roots) {
   }
   for (const NodeId root : roots) roots_.push_back(places_.at(root));
   axes_.resize(registers_);
-  for (const auto& [id, reg] : places_) axes_[reg] = axes[id];
+  for (const auto& [id, reg] : places_) axes_[reg] = axes.at(id);
 }
 
 namespace {
