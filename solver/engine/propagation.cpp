@@ -17,6 +17,10 @@ void Access::fail(VariableId variable, std::optional<std::array<double, 2>> time
   if (!run_.failure_) run_.failure_ = Failure{contractor_, variable, time};
 }
 
+std::size_t Access::place_in(VariableId id) const {
+  return std::lower_bound(places_.begin(), places_.end(), std::pair(id, std::size_t{0}))->second;
+}
+
 void Access::settled() { settled_ = true; }
 
 bool Access::should_stop() const { return run_.failure_.has_value() || run_.out_of_limits(); }
@@ -30,12 +34,12 @@ Propagation::Propagation(const ContractorGraph& graph, PropagationOptions option
   const std::size_t contractors = graph.contractors().size();
   for (ContractorId id = 0; id < contractors; ++id) {
     access_.push_back(Access(*this, id));
-    access_.back().places_.assign(graph.variables().size(), 0);
     schedule_.push_back(id);
   }
   for (VariableId v = 0; v < graph.variables().size(); ++v) {
     const auto& readers = graph.variable(v).readers();
-    for (std::size_t place = 0; place < readers.size(); ++place) access_[readers[place]].places_[v] = place;
+    for (std::size_t place = 0; place < readers.size(); ++place)
+      access_[readers[place]].places_.emplace_back(v, place);
   }
   Cost dearest = Cost::constant;
   for (const auto& contractor : graph.contractors()) dearest = std::max(dearest, contractor->cost());
@@ -48,13 +52,8 @@ Propagation::Propagation(const ContractorGraph& graph, PropagationOptions option
   std::stable_sort(schedule_.begin(), schedule_.end(), [&](ContractorId a, ContractorId b) {
     return graph.contractors()[a]->cost() < graph.contractors()[b]->cost();
   });
-}
-
-std::optional<ContractorId> Propagation::next_awake() {
-  const auto found =
-      std::find_if(schedule_.begin(), schedule_.end(), [&](ContractorId id) { return awake_[id]; });
-  if (found == schedule_.end()) return std::nullopt;
-  return *found;
+  turn_.resize(contractors);
+  for (std::size_t turn = 0; turn < contractors; ++turn) turn_[schedule_[turn]] = turn;
 }
 
 bool Propagation::out_of_limits() const {
@@ -64,16 +63,16 @@ bool Propagation::out_of_limits() const {
 
 void Propagation::run_contractor(ContractorId id, Observer* observer) {
   Contractor& contractor = *graph_.contractors()[id];
-  awake_[id] = false;
+  agenda_.put_to_sleep(turn_[id]);
   ran_this_pass_[id] = contractor.cost() >= counted_;
-  for (const VariableId v : contractor.reads()) slots_[v]->hand_over(access_[id].places_[v]);
+  for (const VariableId v : contractor.reads()) slots_[v]->hand_over(access_[id].place_in(v));
   if (observer != nullptr) observer->before_contractor(*this, id);
   const double before = options_.clock();
   access_[id].settled_ = false;
   contractor.contract(access_[id]);
   if (access_[id].settled_) {
-    awake_[id] = false;
-    for (const VariableId v : contractor.reads()) slots_[v]->drop(access_[id].places_[v]);
+    agenda_.put_to_sleep(turn_[id]);
+    for (const VariableId v : contractor.reads()) slots_[v]->drop(access_[id].place_in(v));
   }
   counts_[id].seconds += options_.clock() - before;
   ++counts_[id].calls;
@@ -104,16 +103,17 @@ Ending Propagation::run(Observer* observer) {
     slots_[v]->wake_all(graph_.variable(v).readers().size());
     if (slots_[v]->is_empty() && !failure_) failure_ = Failure{std::nullopt, v, std::nullopt};
   }
-  awake_.assign(graph_.contractors().size(), true);
+  agenda_ = Agenda(graph_.contractors().size());
   ran_this_pass_.assign(graph_.contractors().size(), false);
   pass_ = 1;
-  for (auto next = next_awake(); next && !failure_; next = next_awake()) {
+  for (auto turn = agenda_.next(); turn && !failure_; turn = agenda_.next()) {
     if (out_of_limits()) return Ending::limit;
-    if (ran_this_pass_[*next]) {
+    const ContractorId next = schedule_[*turn];
+    if (ran_this_pass_[next]) {
       if (end_pass(observer)) return Ending::limit;
       ++pass_;
     }
-    run_contractor(*next, observer);
+    run_contractor(next, observer);
   }
   static_cast<void>(end_pass(observer));
   if (failure_) return Ending::empty;

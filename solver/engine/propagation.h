@@ -12,6 +12,7 @@
 #include <optional>
 #include <vector>
 
+#include "solver/engine/agenda.h"
 #include "solver/engine/graph.h"
 
 namespace hcsp {
@@ -78,7 +79,9 @@ class Access {
   Propagation& run_;
   ContractorId contractor_;
   bool settled_ = false;
-  std::vector<std::size_t> places_;  // of this contractor among the readers of each variable that it reads
+  /// Of this contractor among the readers of a variable that it reads.
+  [[nodiscard]] std::size_t place_in(VariableId id) const;
+  std::vector<std::pair<VariableId, std::size_t>> places_;  // by variable
 };
 
 class Propagation {
@@ -125,7 +128,6 @@ class Propagation {
   TypedSlot<D>& slot(VariableId id) {
     return dynamic_cast<TypedSlot<D>&>(*slots_[id]);
   }
-  [[nodiscard]] std::optional<ContractorId> next_awake();
   void run_contractor(ContractorId id, Observer* observer);
   [[nodiscard]] bool end_pass(Observer* observer);
   [[nodiscard]] bool out_of_limits() const;
@@ -136,7 +138,8 @@ class Propagation {
   std::vector<std::unique_ptr<Slot>> slots_;
   std::vector<Access> access_;          // by contractor
   std::vector<ContractorId> schedule_;  // all contractors, in the order in which awake ones run
-  std::vector<bool> awake_;
+  std::vector<std::size_t> turn_;       // by contractor: its place in the schedule
+  Agenda agenda_;
   std::vector<bool> ran_this_pass_;  // of the contractors that passes are counted by
   Cost counted_ = Cost::constant;    // their least cost: those of a few operations do not make a pass
   std::vector<double> open_;  // the variables' measures at the last pass's end, when there is a threshold
@@ -152,7 +155,7 @@ const D& Access::domain(VariableId id) const {
 
 template <Lattice D>
 const typename D::Delta& Access::delta(VariableId id) const {
-  return static_cast<const TypedSlot<D>&>(*run_.slots_[id]).pending[places_[id]];
+  return static_cast<const TypedSlot<D>&>(*run_.slots_[id]).pending[place_in(id)];
 }
 
 template <Lattice D>
@@ -168,7 +171,7 @@ void Access::report(VariableId id, const typename D::Delta& change,
   if (change.is_none()) return;
   const std::vector<ContractorId>& readers = run_.graph_.variable(id).readers();
   for (std::size_t place = 0; place < readers.size(); ++place) {
-    run_.awake_[readers[place]] = true;
+    run_.agenda_.wake(run_.turn_[readers[place]]);
     slot.incoming[place].join(change);
   }
 }
