@@ -72,6 +72,13 @@ struct Problem::Impl {
     return holds_or_not(node.operands[1]) && holds_or_not(node.operands[2]);
   }
 
+  void require_one_grid(const std::vector<SetTerm>& terms) {
+    for (const SetTerm& term : terms) {
+      require(graph.initial<SetInterval>(term.set).grid() == graph.initial<SetInterval>(terms[0].set).grid(),
+              "Problem: sets that meet in a relation need equal dimensions and precisions");
+    }
+  }
+
   void need_line() const { require(line != nullptr, "Problem: set_time_line comes before the first tube"); }
 };
 
@@ -200,6 +207,31 @@ void Problem::constrain_disjoint(std::string name, SetVariable a, SetVariable b)
   require(impl_->graph.initial<SetInterval>(a.id).grid() == impl_->graph.initial<SetInterval>(b.id).grid(),
           "Problem: disjoint sets need equal dimensions and precisions");
   impl_->graph.add_contractor(make_disjoint_contractor(name, name, a.id, b.id));
+}
+
+SetVariable Problem::hidden_set(std::string name, SetVariable like) {
+  const SetInterval& model = impl_->graph.initial<SetInterval>(like.id);
+  return {impl_->add(name, SetInterval(model.dim(), model.precision()), DomainKind::set, true), like.dim};
+}
+
+void Problem::constrain_subset(std::string name, SetTerm a, SetTerm b) {
+  impl_->require_one_grid({a, b});
+  impl_->graph.add_contractor(make_subset_contractor(name, name, a, b));
+}
+
+void Problem::constrain_intersection(std::string name, SetTerm whole, SetTerm a, SetTerm b) {
+  impl_->require_one_grid({whole, a, b});
+  impl_->graph.add_contractor(make_intersection_contractor(name, name, whole, a, b));
+}
+
+void Problem::constrain_symmetric_difference(std::string name, SetTerm whole, SetTerm a, SetTerm b) {
+  impl_->require_one_grid({whole, a, b});
+  impl_->graph.add_contractor(make_symmetric_difference_contractor(name, name, whole, a, b));
+}
+
+void Problem::constrain_common_point(std::string name, SetTerm a, SetTerm b) {
+  impl_->require_one_grid({a, b});
+  impl_->graph.add_contractor(make_common_point_contractor(name, name, a, b));
 }
 
 void Problem::constrain_meets(std::string name, const SetBuilder& zone, SetVariable set) {

@@ -13,6 +13,7 @@
 #include "domains/box.h"
 #include "domains/set_interval.h"
 #include "domains/tube.h"
+#include "solver/contractors/set_algebra.h"
 #include "solver/engine/graph.h"
 #include "solver/engine/propagation.h"
 #include "solver/expression/expr.h"
@@ -113,6 +114,16 @@ class Problem {
   void constrain_disjoint(std::string name, SetVariable a, SetVariable b);
   /// For every t, zone(t) meets the set.
   void constrain_meets(std::string name, const SetBuilder& zone, SetVariable set);
+  /// A set that results do not show, on the grid of another: what a set expression is put together from.
+  SetVariable hidden_set(std::string name, SetVariable like);
+  /// a is a subset of b. Here and below the grids must be equal: std::invalid_argument otherwise.
+  void constrain_subset(std::string name, SetTerm a, SetTerm b);
+  /// whole == a inter b.
+  void constrain_intersection(std::string name, SetTerm whole, SetTerm a, SetTerm b);
+  /// whole == a symdiff b.
+  void constrain_symmetric_difference(std::string name, SetTerm whole, SetTerm a, SetTerm b);
+  /// a and b have a point in common.
+  void constrain_common_point(std::string name, SetTerm a, SetTerm b);
   /// z == min over a in map of delta(a), for every t: a rangefinder (Jaulin 2011, equations 1 to 3). The map
   /// is closed. Decomposed by Theorems 1 and 2 with a hidden dug space of the map's precision.
   void constrain_range(std::string name, Expr z, const VectorExpr& a, Expr delta, SetVariable map);

@@ -139,8 +139,7 @@ Type Checker::check_index(const Expr& expr) {
     if (index.is_error() || bad) {
       bad = true;
     } else {
-      bad = !require_scalar(written, index) || !require_known(written, index) ||
-            !check_place(written, base);
+      bad = !require_scalar(written, index) || !require_known(written, index) || !check_place(written, base);
       base = component_of(base);
       base.known = std::min(base.known, index.known);
     }
