@@ -104,6 +104,13 @@ ItemSet ItemSet::all(std::size_t items) {
   return set;
 }
 
+ItemSet ItemSet::range(std::size_t first, std::size_t last) {
+  ItemSet set = all(last + 1);
+  for (std::size_t w = 0; w < first / 64; ++w) set.words_[w] = 0;
+  set.words_[first / 64] &= ~std::uint64_t{0} << (first % 64);
+  return set;
+}
+
 bool ItemSet::is_none() const {
   return std::all_of(words_.begin(), words_.end(), [](std::uint64_t word) { return word == 0; });
 }
@@ -116,6 +123,11 @@ void ItemSet::insert(std::size_t item) {
 void ItemSet::join(const ItemSet& other) {
   if (words_.size() < other.words_.size()) words_.resize(other.words_.size(), 0);
   for (std::size_t w = 0; w < other.words_.size(); ++w) words_[w] |= other.words_[w];
+}
+
+void ItemSet::meet(const ItemSet& other) {
+  words_.resize(std::min(words_.size(), other.words_.size()));
+  for (std::size_t w = 0; w < words_.size(); ++w) words_[w] &= other.words_[w];
 }
 
 }  // namespace hcsp

@@ -46,12 +46,15 @@ class ItemSet {
  public:
   ItemSet() = default;
   static ItemSet all(std::size_t items);
+  /// The items first..last.
+  static ItemSet range(std::size_t first, std::size_t last);
   [[nodiscard]] bool is_none() const;
   [[nodiscard]] bool contains(std::size_t item) const {
     return item / 64 < words_.size() && ((words_[item / 64] >> (item % 64)) & 1U) != 0;
   }
   void insert(std::size_t item);
   void join(const ItemSet& other);
+  void meet(const ItemSet& other);
   [[nodiscard]] const std::vector<std::uint64_t>& words() const { return words_; }
 
   /// Calls visit(item) for every member, in the order of time.

@@ -84,10 +84,10 @@ enum class Code : std::uint16_t {
   out_of_range = 312,
   unbounded_frame = 313,
   data_outside = 314,
+  no_grid = 315,
 
   der_misplaced = 401,
   der_of_what = 402,
-  logic_over_time = 403,
   zone_over_time = 404,
 };
 

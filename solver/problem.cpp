@@ -1,17 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "solver/problem.h"
 
+#include <cmath>
 #include <map>
 #include <set>
+#include <utility>
 
 #include "domains/check.h"
 #include "domains/rounding.h"
+#include "solver/contractors/alternatives.h"
 #include "solver/contractors/derivative.h"
 #include "solver/contractors/disjoint.h"
 #include "solver/contractors/integrality.h"
 #include "solver/contractors/meets.h"
+#include "solver/contractors/refinement.h"
 #include "solver/contractors/relation.h"
 #include "solver/contractors/set_union.h"
+#include "solver/contractors/sometime.h"
 #include "solver/expression/operators.h"
 #include "solver/problem_run.h"
 
@@ -28,6 +33,10 @@ struct Problem::Impl {
   std::map<VariableId, std::vector<Reading>> readings;
   std::map<VariableId, Shape> shapes;  // where they differ from the default
   bool fast_paths = true;
+  std::vector<std::unique_ptr<Contractor>>* alternative = nullptr;   // the one being stated
+  std::map<std::pair<VariableId, NodeId>, VariableId> values;        // of tubes at instants to be found
+  std::map<std::pair<VariableId, double>, SetVariable> refinements;  // by the finer grid's precision
+  std::set<std::string> hidden_names;
 
   [[nodiscard]] Inputs::Context context() const { return {line, sampled, motions}; }
 
@@ -41,6 +50,52 @@ struct Problem::Impl {
   Expr input(Input::Kind kind, VariableId variable, std::size_t component, std::size_t gate = 0) {
     const Input leaf{kind, variable, static_cast<std::uint32_t>(component), static_cast<std::uint32_t>(gate)};
     return {dag, dag.input(leaf)};
+  }
+
+  // A name for a hidden variable that no other has.
+  std::string free_name(const std::string& wanted) {
+    std::string name = wanted;
+    for (std::size_t k = 2; !hidden_names.insert(name).second; ++k) name = fmt::format("{} #{}", wanted, k);
+    return name;
+  }
+
+  // A contractor of the problem, or of the alternative that is being stated.
+  void state(std::unique_ptr<Contractor> contractor) {
+    if (alternative == nullptr) {
+      graph.add_contractor(std::move(contractor));
+    } else {
+      alternative->push_back(std::move(contractor));
+    }
+  }
+
+  // What an alternative says of a derivative, or of a tube at an instant, holds there alone.
+  ContractorGraph alternative_of(const std::function<void()>& stated) {
+    std::vector<std::unique_ptr<Contractor>> contractors;
+    auto* outer = std::exchange(alternative, &contractors);
+    const auto outer_motions = std::exchange(motions, std::make_shared<Motions>());
+    const auto outer_values = values;
+    const auto restore = [&] {
+      values = outer_values;
+      alternative = outer;
+      motions = outer_motions;
+    };
+    try {
+      stated();
+    } catch (...) {
+      restore();
+      throw;
+    }
+    restore();
+    return graph.part(std::move(contractors));
+  }
+
+  [[nodiscard]] std::optional<ItemSet> items_of(const std::optional<Window>& window) const {
+    if (!window) return {};
+    need_line();
+    const auto from = line->gate_at(window->from), to = line->gate_at(window->to);
+    require(from && to && *from <= *to, "Problem: [{}, {}] is no span between instants of the time line",
+            window->from, window->to);
+    return ItemSet::range(2 * *from, 2 * *to);
   }
 
   VectorExpr inputs(Input::Kind kind, VariableId variable, std::size_t dim, std::size_t gate = 0) {
@@ -92,7 +147,7 @@ RealVariable Problem::real(std::string name, const Interval& domain) {
 IntegerVariable Problem::integer(std::string name, const Interval& domain) {
   const VariableId id = impl_->add(name, domain, DomainKind::real);
   impl_->shapes[id].scalar = Shape::Scalar::whole;
-  impl_->graph.add_contractor(make_integrality_contractor(name + " is whole", id));
+  impl_->state(make_integrality_contractor(name + " is whole", id));
   return {id};
 }
 
@@ -175,6 +230,32 @@ VectorExpr Problem::at(TubeVariable x, double t) {
   return impl_->inputs(Input::Kind::gate, x.id, x.dim, *gate);
 }
 
+VectorExpr Problem::at(TubeVariable x, Expr instant) {
+  impl_->need_line();
+  const NodeId node = impl_->node_of(instant);
+  const Program program(impl_->dag, {node});
+  for (const Input& input : program.inputs()) {
+    require(input.kind != Input::Kind::tube && input.kind != Input::Kind::time,
+            "Problem: an instant that varies with time");
+  }
+  const auto known = impl_->values.find({x.id, node});
+  if (known != impl_->values.end()) return impl_->inputs(Input::Kind::vector, known->second, x.dim);
+  const std::string name = fmt::format("{} at instant {}", impl_->graph.variable(x.id).name(), node);
+  const VariableId value =
+      impl_->add(impl_->free_name(name), Box(static_cast<Eigen::Index>(x.dim)), DomainKind::vector, true);
+  impl_->values.emplace(std::pair(x.id, node), value);
+  const VectorExpr found = impl_->inputs(Input::Kind::vector, value, x.dim);
+  constrain_sometime(name, time() == instant && found == (*this)(x));
+  return found;
+}
+
+Expr Problem::instant(std::string name, const std::optional<Window>& window) {
+  impl_->need_line();
+  const TimeLine& line = *impl_->line;
+  const Interval span = window ? Interval(window->from, window->to) : Interval(line.start(), line.end());
+  return impl_->input(Input::Kind::real, impl_->add(impl_->free_name(name), span, DomainKind::real, true), 0);
+}
+
 Expr Problem::time() {
   impl_->need_line();
   return impl_->input(Input::Kind::time, 0, 0);
@@ -182,9 +263,23 @@ Expr Problem::time() {
 
 VectorExpr Problem::point(std::size_t dim) { return impl_->inputs(Input::Kind::point, 0, dim); }
 
-void Problem::constrain(std::string name, Expr relation) {
-  impl_->graph.add_contractor(
-      make_relation_contractor(std::move(name), impl_->dag, impl_->relation_of(relation), impl_->context()));
+void Problem::constrain(std::string name, Expr relation, const std::optional<Window>& window) {
+  impl_->state(make_relation_contractor(std::move(name), impl_->dag, impl_->relation_of(relation),
+                                        impl_->context(), impl_->items_of(window)));
+}
+
+void Problem::constrain_sometime(std::string name, Expr relation, const std::optional<Window>& window) {
+  impl_->state(make_sometime_contractor(std::move(name), impl_->dag, impl_->relation_of(relation),
+                                        impl_->context(), impl_->items_of(window)));
+}
+
+void Problem::constrain_at_least(std::string name, std::size_t least,
+                                 const std::vector<std::function<void()>>& alternatives) {
+  require(least >= 1 && least <= alternatives.size(), "Problem: at least {} of {} alternatives", least,
+          alternatives.size());
+  std::vector<ContractorGraph> graphs;
+  for (const auto& stated : alternatives) graphs.push_back(impl_->alternative_of(stated));
+  impl_->state(make_alternatives_contractor(std::move(name), least, std::move(graphs)));
 }
 
 void Problem::constrain_derivative(std::string name, TubeVariable x, const VectorExpr& f) {
@@ -192,53 +287,73 @@ void Problem::constrain_derivative(std::string name, TubeVariable x, const Vecto
   require(f.size() == x.dim, "Problem: der of a tube of dimension {} and {} components", x.dim, f.size());
   std::vector<NodeId> nodes;
   for (const Expr& component : f) nodes.push_back(impl_->node_of(component));
-  impl_->graph.add_contractor(
-      make_derivative_contractor(std::move(name), x.id, x.dim, impl_->dag, nodes, impl_->context()));
+  impl_->state(make_derivative_contractor(std::move(name), x.id, x.dim, impl_->dag, nodes, impl_->context()));
 }
 
 void Problem::constrain_union(std::string name, SetVariable set, const SetBuilder& zone) {
   require(zone.dim == set.dim, "Problem: a zone of R^{} for a set of R^{}", zone.dim, set.dim);
-  impl_->graph.add_contractor(make_union_contractor(name, name, set.id, set.dim, impl_->dag,
-                                                    impl_->relation_of(zone.relation, zone.dim),
-                                                    impl_->context(), impl_->fast_paths));
+  impl_->state(make_union_contractor(name, name, set.id, impl_->graph.initial<SetInterval>(set.id),
+                                     impl_->dag, impl_->relation_of(zone.relation, zone.dim),
+                                     impl_->context(), impl_->fast_paths));
 }
 
 void Problem::constrain_disjoint(std::string name, SetVariable a, SetVariable b) {
   require(impl_->graph.initial<SetInterval>(a.id).grid() == impl_->graph.initial<SetInterval>(b.id).grid(),
           "Problem: disjoint sets need equal dimensions and precisions");
-  impl_->graph.add_contractor(make_disjoint_contractor(name, name, a.id, b.id));
+  impl_->state(make_disjoint_contractor(name, name, a.id, b.id));
 }
 
 SetVariable Problem::hidden_set(std::string name, SetVariable like) {
   const SetInterval& model = impl_->graph.initial<SetInterval>(like.id);
-  return {impl_->add(name, SetInterval(model.dim(), model.precision()), DomainKind::set, true), like.dim};
+  SetInterval domain(model.dim(), model.precision());
+  domain.cover(model.reach());
+  return {impl_->add(impl_->free_name(name), std::move(domain), DomainKind::set, true), like.dim};
+}
+
+SetVariable Problem::refined(SetVariable set, SetVariable like) {
+  const Grid coarse = impl_->graph.initial<SetInterval>(set.id).grid();
+  const Grid fine = impl_->graph.initial<SetInterval>(like.id).grid();
+  int exponent = 0;
+  const double mantissa = std::frexp(coarse.precision() / fine.precision(), &exponent);
+  require(coarse.dim() == fine.dim() && mantissa == 0.5 && 1 <= exponent && exponent <= 21,
+          "Problem: precisions {} and {}, where the first should be a power of two times the second",
+          coarse.precision(), fine.precision());
+  const auto known = impl_->refinements.find({set.id, fine.precision()});
+  if (known != impl_->refinements.end()) return known->second;
+  const std::string name = impl_->graph.variable(set.id).name() + " refined";
+  const SetVariable made = hidden_set(name, like);
+  // It is the same set whatever holds: no alternative owns this.
+  impl_->graph.add_contractor(make_refinement_contractor(impl_->graph.variable(made.id).name(), made.id,
+                                                         set.id, 1 << (exponent - 1)));
+  impl_->refinements.emplace(std::pair(set.id, fine.precision()), made);
+  return made;
 }
 
 void Problem::constrain_subset(std::string name, SetTerm a, SetTerm b) {
   impl_->require_one_grid({a, b});
-  impl_->graph.add_contractor(make_subset_contractor(name, name, a, b));
+  impl_->state(make_subset_contractor(name, name, a, b));
 }
 
 void Problem::constrain_intersection(std::string name, SetTerm whole, SetTerm a, SetTerm b) {
   impl_->require_one_grid({whole, a, b});
-  impl_->graph.add_contractor(make_intersection_contractor(name, name, whole, a, b));
+  impl_->state(make_intersection_contractor(name, name, whole, a, b));
 }
 
 void Problem::constrain_symmetric_difference(std::string name, SetTerm whole, SetTerm a, SetTerm b) {
   impl_->require_one_grid({whole, a, b});
-  impl_->graph.add_contractor(make_symmetric_difference_contractor(name, name, whole, a, b));
+  impl_->state(make_symmetric_difference_contractor(name, name, whole, a, b));
 }
 
 void Problem::constrain_common_point(std::string name, SetTerm a, SetTerm b) {
   impl_->require_one_grid({a, b});
-  impl_->graph.add_contractor(make_common_point_contractor(name, name, a, b));
+  impl_->state(make_common_point_contractor(name, name, a, b));
 }
 
 void Problem::constrain_meets(std::string name, const SetBuilder& zone, SetVariable set) {
   require(zone.dim == set.dim, "Problem: a zone of R^{} for a set of R^{}", zone.dim, set.dim);
-  impl_->graph.add_contractor(make_meets_contractor(name, name, set.id, set.dim, impl_->dag,
-                                                    impl_->relation_of(zone.relation, zone.dim),
-                                                    impl_->context(), impl_->fast_paths));
+  impl_->state(make_meets_contractor(name, name, set.id, set.dim, impl_->dag,
+                                     impl_->relation_of(zone.relation, zone.dim), impl_->context(),
+                                     impl_->fast_paths));
 }
 
 void Problem::constrain_range(std::string name, Expr z, const VectorExpr& a, Expr delta, SetVariable map) {
@@ -249,12 +364,11 @@ void Problem::constrain_range(std::string name, Expr z, const VectorExpr& a, Exp
   const VariableId dug =
       impl_->add(name + ".dug space", SetInterval(map.dim, domain.precision()), DomainKind::set, true);
   // Theorem 1 digs the open zone, delta < z: with the closed one it would contradict Theorem 2.
-  impl_->graph.add_contractor(make_union_contractor(name + ".dug", name, dug, map.dim, impl_->dag,
-                                                    (delta < z).node(), impl_->context(), impl_->fast_paths));
-  impl_->graph.add_contractor(make_disjoint_contractor(name + ".free", name, dug, map.id));
-  impl_->graph.add_contractor(make_meets_contractor(name + ".impact", name, map.id, map.dim, impl_->dag,
-                                                    (delta == z).node(), impl_->context(),
-                                                    impl_->fast_paths));
+  impl_->state(make_union_contractor(name + ".dug", name, dug, impl_->graph.initial<SetInterval>(dug),
+                                     impl_->dag, (delta < z).node(), impl_->context(), impl_->fast_paths));
+  impl_->state(make_disjoint_contractor(name + ".free", name, dug, map.id));
+  impl_->state(make_meets_contractor(name + ".impact", name, map.id, map.dim, impl_->dag, (delta == z).node(),
+                                     impl_->context(), impl_->fast_paths));
 }
 
 void Problem::use_fast_paths(bool use) { impl_->fast_paths = use; }

@@ -4,6 +4,7 @@
 // graph (the paper's Fig. 6) and solves it.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -58,6 +59,12 @@ struct Reading {
   std::string source;
 };
 
+/// The closed span between two instants of the time line.
+struct Window {
+  double from;
+  double to;
+};
+
 class Problem {
  public:
   explicit Problem(std::string name);
@@ -98,14 +105,25 @@ class Problem {
   VectorExpr operator()(TubeVariable x);
   /// The tube at an instant of the time line; std::invalid_argument if t is none.
   VectorExpr at(TubeVariable x, double t);
+  /// The tube at an instant to be found, an expression of reals; on the time line, or what uses it is false.
+  VectorExpr at(TubeVariable x, Expr instant);
+  /// An instant to be found, on the time line or in the window.
+  Expr instant(std::string name, const std::optional<Window>& window = {});
   /// The identity tube t.
   Expr time();
   /// The bound point a of a set builder in R^dim.
   VectorExpr point(std::size_t dim);
 
   // Constraints. `name` is what statistics and explanations call it.
-  /// A relation. With tubes at the time at hand in it, it holds at every instant of the time line.
-  void constrain(std::string name, Expr relation);
+  /// A relation. With tubes at the time at hand in it, it holds at every instant of the time line, or of the
+  /// window.
+  void constrain(std::string name, Expr relation, const std::optional<Window>& window = {});
+  /// A relation that holds at some instant of the time line, or of the window.
+  void constrain_sometime(std::string name, Expr relation, const std::optional<Window>& window = {});
+  /// At least `least` of some alternatives hold. An alternative is all that is stated while its function
+  /// runs; unknowns may be declared there too. std::invalid_argument unless 1 <= least <= their number.
+  void constrain_at_least(std::string name, std::size_t least,
+                          const std::vector<std::function<void()>>& alternatives);
   /// der(x) == f for almost every t; x is continuous. f has x's dimension.
   void constrain_derivative(std::string name, TubeVariable x, const VectorExpr& f);
   /// set == union over t of zone(t); with no tube in the zone, set == zone.
@@ -116,6 +134,9 @@ class Problem {
   void constrain_meets(std::string name, const SetBuilder& zone, SetVariable set);
   /// A set that results do not show, on the grid of another: what a set expression is put together from.
   SetVariable hidden_set(std::string name, SetVariable like);
+  /// The same set on the finer grid of another, hidden too. std::invalid_argument unless the ratio of their
+  /// precisions is a power of two, 2^20 at most.
+  SetVariable refined(SetVariable set, SetVariable like);
   /// a is a subset of b. Here and below the grids must be equal: std::invalid_argument otherwise.
   void constrain_subset(std::string name, SetTerm a, SetTerm b);
   /// whole == a inter b.

@@ -19,15 +19,6 @@ std::span<const CatalogueEntry> relation_entries() {
                      "time t in [0, 1] step 0.1;\nvar x : tube real;\nvar y : tube real;\n"
                      "constraint y == 2*x;\nconstraint der(y) == 1;"},
       CatalogueEntry{
-          Code::logic_over_time, "`{}` between relations that hold at every instant is not supported yet",
-          "A relation between tubes is one Boolean, \"at every instant\": x > 0 or y > 0 says that one of "
-          "them\n"
-          "is positive all the time. For one of them at each instant, possibly another at the next, write\n"
-          "forall(t) around it.",
-          "time t in [0, 1] step 0.1;\nvar x : tube real;\nvar y : tube real;\nconstraint x > 0 or y > 0;",
-          "time t in [0, 1] step 0.1;\nvar x : tube real;\nvar y : tube real;\n"
-          "constraint forall(t) (x > 0 or y > 0);"},
-      CatalogueEntry{
           Code::zone_over_time, "this set varies with time: put `union({})` before it",
           "A set equals one set. The union over the time line of the zones at each instant is one.",
           "time t in [0, 1] step 0.1;\nvar x : tube real[2];\nvar D : set real[2] precision 0.1;\n"

@@ -40,10 +40,11 @@ std::span<const CatalogueEntry> time_entries() {
                      "var x : real in 1 +- 0.1;"},
       CatalogueEntry{
           Code::precisions_differ, "the precisions of `{}` ({}) and `{}` ({}) differ",
-          "Sets that meet in a relation stand on one grid.",
-          "var A : set real[2] in [0, 1]^2 precision 0.1;\nvar B : set real[2] in [0, 1]^2 precision 0.2;\n"
+          "Sets that meet in a relation stand on one grid, or on grids of which one refines the other: the\n"
+          "ratio of their precisions is then 2, 4, 8 or another power of two.",
+          "var A : set real[2] in [0, 1]^2 precision 0.1;\nvar B : set real[2] in [0, 1]^2 precision 0.3;\n"
           "constraint disjoint(A, B);",
-          "var A : set real[2] in [0, 1]^2 precision 0.1;\nvar B : set real[2] in [0, 1]^2 precision 0.1;\n"
+          "var A : set real[2] in [0, 1]^2 precision 0.1;\nvar B : set real[2] in [0, 1]^2 precision 0.2;\n"
           "constraint disjoint(A, B);"},
       CatalogueEntry{Code::bad_set_dimension, "sets have points of 1 to 3 components, this is {}",
                      "Write set real[2] or set real[3].", "var M : set real[4] precision 0.1;",
@@ -63,6 +64,11 @@ std::span<const CatalogueEntry> time_entries() {
                      "given z : tube real = sampled(log.t, log.range);",
                      "data log = csv(\"log.csv\");\ntime t in [first(log.t), last(log.t)] step 0.1;\n"
                      "given z : tube real = sampled(log.t, log.range);"},
+      CatalogueEntry{Code::no_grid, "no set has a name in this relation, so there is no grid for it",
+                     "Sets are known on the cells of a grid, which is that of a set that the relation names.",
+                     "var r : real;\nconstraint {a : real[2] | norm(a) < r} subset {a : real[2] | a[1] < 1};",
+                     "var r : real;\nvar D : set real[2] precision 0.1;\n"
+                     "constraint D == {a | norm(a) < r};\nconstraint D subset {a | a[1] < 1};"},
   };
   return kEntries;
 }

@@ -58,12 +58,15 @@ bool Checker::check_count(const Expr& expr, std::string_view name, std::size_t f
 Type Checker::check_function_call(const Expr& expr, const Symbol& function) {
   std::vector<Type> arguments;
   bool bad = false;
+  const std::uint32_t instants_before = instants_to_find_;
   for (std::size_t i = 1; i < expr.operands.size(); ++i) {
     arguments.push_back(check(*expr.operands[i]));
     bad = bad || arguments.back().is_error();
   }
   const std::size_t count = function.as<FunctionItem>()->parameters.size();
   if (!check_count(expr, function.name.text, count, count) || bad || function.type.is_error()) return {};
+  if (function.takes_instants) ++instants_to_find_;
+  if (function.type.is(Type::Kind::boolean) && instants_to_find_ != instants_before) model_.set_stated(expr);
   Type type = function.type;
   for (std::size_t i = 0; i < arguments.size(); ++i) {
     const Type& wanted = function.parameters[i];
@@ -74,6 +77,8 @@ Type Checker::check_function_call(const Expr& expr, const Symbol& function) {
                             function.name.text));
       return {};
     }
+    if (model_.is_stated(*expr.operands[i + 1]))
+      return not_supported(expr.operands[i + 1]->range, "this relation as an argument of a function");
     type.tube = type.tube || arguments[i].tube;
     // What depends on parameters alone is known once the arguments are.
     if (function.type.known == Known::at_call) {
@@ -97,12 +102,9 @@ Type Checker::check_instant(const Expr& expr, const Type& callee) {
     return {};
   }
   if (type.tube) return not_supported(instant.range, "a tube at another time than the one at hand");
-  if (type.known == Known::at_call) {
-    diagnostics().report(Code::not_constant, instant.range);
-    return {};
-  }
-  if (type.known == Known::by_solving) return not_supported(instant.range, "a tube at an unknown instant");
-  model_.instants.push_back(&instant);
+  if (type.known == Known::now) model_.instants.push_back(&instant);
+  // Of a parameter of a function it shows at the call only whether the instant is known.
+  if (type.known == Known::by_solving || type.known == Known::at_call) ++instants_to_find_;
   at.tube = false;
   return at;
 }
@@ -122,7 +124,11 @@ Type Checker::check_built_in(const Expr& expr, const BuiltInFunction& function) 
       return check_at_least(expr);
     case BuiltIn::disjoint:
     case BuiltIn::meets:
-      return check_set_relation(expr, function);
+    case BuiltIn::subset:
+      check_pair(*expr.operands[1], *expr.operands[2]);
+      return check_set_relation(expr, *expr.operands[1], *expr.operands[2]);
+    case BuiltIn::complement:
+      return check_complement(expr, 0);
     default:
       break;
   }
@@ -257,6 +263,7 @@ Type Checker::check_der(const Expr& expr) {
     diagnostics().report(Code::der_misplaced, expr.range);
     return {};
   }
+  model_.set_stated(expr);
   const Expr& argument = *expr.operands[1];
   const Symbol* symbol = argument.kind == ExprKind::name ? model_.reference(argument).symbol : nullptr;
   const bool is_tube = symbol != nullptr &&

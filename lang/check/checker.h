@@ -67,6 +67,9 @@ class Checker {
   Type check_comparison(const Expr& expr, const Type& a, const Type& b);
   Type check_membership(const Expr& expr, const Type& a, const Type& b);
   Type check_logic(const Expr& expr, const Type& a, const Type& b);
+  void lift(const Expr& expr, Type& type, bool conjunction);
+  bool compares_truths(const Expr& expr);
+  bool names_truth(std::string_view name);
   bool check_place(const Expr& written, const Type& base);
   Type check_tuple(const Expr& expr);
   Type check_interval(const Expr& expr);
@@ -100,23 +103,28 @@ class Checker {
   Type check_set(const Expr& expr, std::uint32_t dim);
   /// Two operands of which a set builder may take its dimension from the other.
   std::pair<Type, Type> check_pair(const Expr& a, const Expr& b);
-  Type check_set_relation(const Expr& expr, const BuiltInFunction& function);
+  /// Both are sets of one dimension; reports otherwise.
+  bool require_sets(const Expr& expr, const Expr& a, const Expr& b);
+  Type check_set_relation(const Expr& expr, const Expr& a, const Expr& b);
+  Type check_set_equality(const Expr& expr, const Type& a, const Type& b);
+  Type check_set_operation(const Expr& expr, const Type& a, const Type& b);
+  Type check_complement(const Expr& expr, std::uint32_t dim);
+  Type check_point_in_set(const Expr& expr, const Type& point, const Type& set);
   Type check_distance(const Expr& expr);
   Type check_quantified(const Expr& expr, std::uint32_t dim);
+  Type check_over_time(const Expr& expr);
+  Type check_union(const Expr& expr, std::uint32_t dim);
   // Bound whole numbers (ranges.cpp).
   Type check_range(const Expr& expr, const Type& a, const Type& b);
-  Type check_over_range(const Expr& expr, bool stated);
+  Type check_over_range(const Expr& expr);
   Type check_comprehension(const Expr& expr);
   bool bind_ranges(const Expr& expr);
   Type unbound(const Expr& expr, Type type);
   Type check_minimum(const Expr& expr);
   bool binds_time(const Expr& expr);
   [[nodiscard]] bool is_stated_side(const Expr& expr) const {
-    return sides_[0] == &expr || sides_[1] == &expr;
+    return std::find(sides_.begin(), sides_.end(), &expr) != sides_.end();
   }
-
-  // A relation that a constraint states: here der and distance may stand alone on a side of ==.
-  Type check_stated(const Expr& expr);
 
   std::uint32_t bind(std::string_view name, const Type& type);
   [[nodiscard]] std::vector<std::string> visible_names() const;
@@ -128,8 +136,8 @@ class Checker {
   std::vector<Visible> locals_;  // those in sight, the innermost last
   std::uint32_t next_local_ = 0;
   bool pointwise_ = false;              // within what holds or is taken at one instant
-  const Expr* stated_ = nullptr;        // a relation that a constraint states
-  std::array<const Expr*, 2> sides_{};  // of a stated ==, which may be der or distance
+  std::vector<const Expr*> sides_;      // of the == at hand, which may be der or distance
+  std::uint32_t instants_to_find_ = 0;  // how many were seen: tubes at unknown instants
   std::uint32_t ranges_ = 0;            // how many bindings to whole numbers are open
   std::uint32_t depth_ = 0;
   bool solve_seen_ = false;

@@ -82,6 +82,9 @@ Type Checker::check_name(const Expr& expr) {
       diagnostics().report(Code::wrong_type, expr.range, "a value", "the name of a constraint");
       return {};
     }
+    const auto* let = symbol.as<LetItem>();
+    if (let != nullptr && model_.is_stated(*let->value)) model_.set_stated(expr);
+    if (symbol.takes_instants) ++instants_to_find_;
     return symbol.type;
   }
   if (expr.text == "pi") return {Type::Kind::real, false, 0, Known::now, nullptr};
@@ -225,11 +228,12 @@ Type Checker::check_interval(const Expr& expr) {
 }
 
 Type Checker::check_conditional(const Expr& expr) {
-  const bool pointwise = std::exchange(pointwise_, true);
-  const Type condition = check(*expr.operands[0]);
-  pointwise_ = pointwise;
+  // Of a choice between numbers the condition is taken at one instant; which it is takes a look at them.
   const Type then = check(*expr.operands[1]);
   const Type otherwise = check(*expr.operands[2]);
+  const bool pointwise = std::exchange(pointwise_, pointwise_ || !then.is(Type::Kind::boolean));
+  const Type condition = check(*expr.operands[0]);
+  pointwise_ = pointwise;
   if (condition.is_error() || then.is_error() || otherwise.is_error()) return {};
   if (!condition.is(Type::Kind::boolean)) {
     diagnostics().report(Code::wrong_type, expr.operands[0]->range, "a relation", describe(condition));
@@ -248,9 +252,10 @@ Type Checker::check_conditional(const Expr& expr) {
   Type type = combined_as(then, then, otherwise);
   type.tube = type.tube || condition.tube;
   type.known = std::min(type.known, condition.known);
-  if (type.is(Type::Kind::boolean) && type.tube && !pointwise_) {
-    diagnostics().report(Code::logic_over_time, expr.range, "if");
-    return {};
+  if (type.is(Type::Kind::boolean)) {
+    lift(expr, type, false);
+  } else if (model_.is_stated(*expr.operands[0])) {
+    return not_supported(expr.operands[0]->range, "this relation as the condition of a number");
   }
   return type;
 }

@@ -102,13 +102,17 @@ void Checker::ensure(Symbol& symbol) {
   std::vector<Visible> locals;
   std::swap(locals, locals_);
   const bool pointwise = std::exchange(pointwise_, false);
-  const Expr* stated = std::exchange(stated_, nullptr);
+  std::vector<const Expr*> sides;
+  std::swap(sides, sides_);
+  const std::uint32_t instants = std::exchange(instants_to_find_, 0);
   const std::uint32_t ranges = std::exchange(ranges_, 0);
   check_symbol(symbol);
   ranges_ = ranges;
   std::swap(locals, locals_);
   pointwise_ = pointwise;
-  stated_ = stated;
+  std::swap(sides, sides_);
+  symbol.takes_instants = instants_to_find_ != 0;
+  instants_to_find_ = instants;
   symbol.state = Symbol::State::done;
 }
 
@@ -299,7 +303,7 @@ void Checker::check_let(Symbol& symbol, const LetItem& item) {
 }
 
 void Checker::check_constraint(const ConstraintItem& item) {
-  const Type type = check_stated(*item.relation);
+  const Type type = check(*item.relation);
   if (type.is_error() || type.is(Type::Kind::boolean)) return;
   diagnostics().report(Code::not_a_relation, item.relation->range, describe(type));
 }

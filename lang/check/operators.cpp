@@ -66,11 +66,7 @@ Type Checker::check_unary(const Expr& expr) {
   if (a.is_error()) return {};
   if (expr.op == Operator::logical_not) {
     if (!a.is(Type::Kind::boolean)) return wrong_operands(expr, a, a);
-    if (a.tube && !pointwise_) {
-      diagnostics().report(Code::logic_over_time, expr.token, spelling(expr.op));
-      return {};
-    }
-    return a;
+    return check_logic(expr, a, a);
   }
   if (a.is(Type::Kind::domain)) return domain_in_expression(expr);
   if ((a.is(Type::Kind::real) && !a.is_array()) || a.is(Type::Kind::column)) return a;
@@ -78,14 +74,49 @@ Type Checker::check_unary(const Expr& expr) {
   return {};
 }
 
-Type Checker::check_binary(const Expr& expr) {
-  if (std::exchange(stated_, nullptr) == &expr && expr.op == Operator::equal) {
-    sides_ = {expr.operands[0], expr.operands[1]};
+// Whether an equality is one between truths, which `iff` is too.
+bool Checker::compares_truths(const Expr& expr) {
+  if (expr.op != Operator::equal && expr.op != Operator::not_equal) return false;
+  return std::any_of(expr.operands.begin(), expr.operands.end(), [&](const Expr* side) {
+    switch (side->kind) {
+      case ExprKind::boolean:
+        return true;
+      case ExprKind::unary:
+      case ExprKind::binary:
+        return is_logical(side->op) || is_comparison(side->op) || side->op == Operator::in ||
+               side->op == Operator::subset;
+      case ExprKind::quantified:
+        return side->quantifier <= Quantifier::at_least;
+      case ExprKind::name:
+        return names_truth(side->text);
+      default:
+        return false;
+    }
+  });
+}
+
+bool Checker::names_truth(std::string_view name) {
+  for (auto local = locals_.rbegin(); local != locals_.rend(); ++local) {
+    if (local->name == name) return local->type.is(Type::Kind::boolean);
   }
+  const auto found = model_.by_name.find(name);
+  if (found == model_.by_name.end()) return false;
+  ensure(*found->second);
+  return found->second->type.is(Type::Kind::boolean);
+}
+
+Type Checker::check_binary(const Expr& expr) {
+  const std::size_t outer_sides = sides_.size();
+  if (expr.op == Operator::equal) sides_.insert(sides_.end(), expr.operands.begin(), expr.operands.end());
   // The operands of a relation are taken at one instant.
-  const bool pointwise = std::exchange(pointwise_, pointwise_ || !is_logical(expr.op));
+  const std::uint32_t instants_before = instants_to_find_;
+  const bool connects = is_logical(expr.op) || compares_truths(expr);
+  const bool pointwise = std::exchange(pointwise_, pointwise_ || !connects);
   const auto [a, b] = check_pair(*expr.operands[0], *expr.operands[1]);
   pointwise_ = pointwise;
+  sides_.resize(outer_sides);
+  if ((is_comparison(expr.op) || expr.op == Operator::in) && instants_to_find_ != instants_before)
+    model_.set_stated(expr);
   if (a.is_error() || b.is_error()) return {};
   if (is_logical(expr.op)) return check_logic(expr, a, b);
   if (is_comparison(expr.op)) return check_comparison(expr, a, b);
@@ -99,11 +130,12 @@ Type Checker::check_binary(const Expr& expr) {
     case Operator::range:
       return check_range(expr, a, b);
     case Operator::subset:
+      return check_set_relation(expr, *expr.operands[0], *expr.operands[1]);
     case Operator::set_union:
     case Operator::set_symdiff:
     case Operator::set_minus:
     case Operator::set_inter:
-      return not_supported(expr.token, fmt::format("`{}`", spelling(expr.op)));
+      return check_set_operation(expr, a, b);
     default:
       return check_arithmetic(expr, a, b);
   }
@@ -168,21 +200,23 @@ Type Checker::check_comparison(const Expr& expr, const Type& a, const Type& b) {
       a.is(Type::Kind::boolean) && b.is(Type::Kind::boolean) && !a.is_array() && !b.is_array();
   if (truths && (expr.op == Operator::equal || expr.op == Operator::not_equal))
     return check_logic(expr, a, b);
-  const bool sets = a.is(Type::Kind::set) && b.is(Type::Kind::set) && expr.op == Operator::equal;
-  if (!sets && (!a.is(Type::Kind::real) || !b.is(Type::Kind::real))) return wrong_operands(expr, a, b);
+  if (a.is(Type::Kind::set) && b.is(Type::Kind::set) &&
+      (expr.op == Operator::equal || expr.op == Operator::not_equal)) {
+    return check_set_equality(expr, a, b);
+  }
+  if (!a.is(Type::Kind::real) || !b.is(Type::Kind::real)) return wrong_operands(expr, a, b);
   if (!a.has_shape_of(b)) {
     diagnostics().report(Code::sizes_differ, expr.range, describe(a), describe(b));
     return {};
   }
-  if (sets && (a.tube || b.tube)) {
-    diagnostics().report(Code::zone_over_time, expr.operands[a.tube ? 0 : 1]->range, model_.time->name.text);
-    return {};
-  }
+  if (std::any_of(expr.operands.begin(), expr.operands.end(),
+                  [&](const Expr* side) { return model_.is_stated(*side); }))
+    model_.set_stated(expr);
   return combined(Type::Kind::boolean, 0, a, b);
 }
 
 Type Checker::check_membership(const Expr& expr, const Type& a, const Type& b) {
-  if (b.is(Type::Kind::set)) return not_supported(expr.token, "a point in a set");
+  if (b.is(Type::Kind::set)) return check_point_in_set(expr, a, b);
   if (!a.is(Type::Kind::real) || !b.is(Type::Kind::domain)) return wrong_operands(expr, a, b);
   if (a.dim != b.dim) {
     diagnostics().report(Code::sizes_differ, expr.range, describe(a), describe(b));
@@ -192,13 +226,22 @@ Type Checker::check_membership(const Expr& expr, const Type& a, const Type& b) {
   return combined(Type::Kind::boolean, 0, a, b);
 }
 
+// Outside what holds at one instant a relation that varies with time is one truth: it holds at every instant.
 Type Checker::check_logic(const Expr& expr, const Type& a, const Type& b) {
   if (!a.is(Type::Kind::boolean) || !b.is(Type::Kind::boolean)) return wrong_operands(expr, a, b);
-  if (expr.op != Operator::logical_and && (a.tube || b.tube) && !pointwise_) {
-    diagnostics().report(Code::logic_over_time, expr.token, spelling(expr.op));
-    return {};
-  }
-  return combined(Type::Kind::boolean, 0, a, b);
+  Type type = combined(Type::Kind::boolean, 0, a, b);
+  lift(expr, type, expr.op == Operator::logical_and);
+  return type;
+}
+
+// A conjunction of what holds at every instant holds at every instant; any other connective of such truths is
+// to be stated, as is one of what is.
+void Checker::lift(const Expr& expr, Type& type, bool conjunction) {
+  const bool of_truths = type.tube && !pointwise_ && !conjunction;
+  const bool of_stated = std::any_of(expr.operands.begin(), expr.operands.end(),
+                                     [&](const Expr* operand) { return model_.is_stated(*operand); });
+  if (of_truths || of_stated) model_.set_stated(expr);
+  if (of_truths) type.tube = false;
 }
 
 }  // namespace hcsp::lang

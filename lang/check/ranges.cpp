@@ -38,7 +38,7 @@ Type Checker::unbound(const Expr& expr, Type type) {
   return type;
 }
 
-Type Checker::check_over_range(const Expr& expr, bool stated) {
+Type Checker::check_over_range(const Expr& expr) {
   const Expr& written = *expr.operands[0];
   const bool counts = expr.quantifier == Quantifier::at_least;
   if (counts) {
@@ -50,18 +50,14 @@ Type Checker::check_over_range(const Expr& expr, bool stated) {
   if (!bind_ranges(expr)) return {};
   const bool is_relation =
       expr.quantifier == Quantifier::forall || expr.quantifier == Quantifier::exists || counts;
-  const bool states = stated && expr.quantifier == Quantifier::forall;
-  const Type body = unbound(expr, states ? check_stated(written) : check(written));
+  Type body = unbound(expr, check(written));
   if (body.is_error()) return {};
   if (is_relation) {
     if (!body.is(Type::Kind::boolean) || body.is_array()) {
       diagnostics().report(Code::wrong_type, written.range, "a relation", describe(body));
       return {};
     }
-    if (expr.quantifier != Quantifier::forall && body.tube && !pointwise_) {
-      diagnostics().report(Code::logic_over_time, expr.range, spelling(expr.quantifier));
-      return {};
-    }
+    lift(expr, body, expr.quantifier == Quantifier::forall);
     return body;
   }
   const bool adds = expr.quantifier == Quantifier::sum;
@@ -97,10 +93,10 @@ Type Checker::check_at_least(const Expr& expr) {
     all = combined(Type::Kind::boolean, 0, all, type);
   }
   if (bad) return {};
-  if (all.tube && !pointwise_) {
-    diagnostics().report(Code::logic_over_time, expr.range, "atleast");
-    return {};
-  }
+  if (std::any_of(list.operands.begin(), list.operands.end(),
+                  [&](const Expr* relation) { return model_.is_stated(*relation); }))
+    model_.set_stated(list);
+  lift(expr, all, false);
   return all;
 }
 

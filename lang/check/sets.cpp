@@ -5,14 +5,34 @@ namespace hcsp::lang {
 
 namespace {
 
-// Whether an expression is a set builder, or a union of one, that does not say its dimension.
-bool wants_dimension(const Expr& expr) {
-  if (expr.kind == ExprKind::builder) return expr.bindings[0].type == nullptr;
-  return expr.kind == ExprKind::quantified && expr.quantifier == Quantifier::set_union &&
-         wants_dimension(*expr.operands[0]);
+bool is_set_operation(const Expr& expr) {
+  return expr.kind == ExprKind::binary &&
+         (expr.op == Operator::set_union || expr.op == Operator::set_inter ||
+          expr.op == Operator::set_minus || expr.op == Operator::set_symdiff);
 }
 
-std::uint32_t dimension_of(const Type& type) { return type.is(Type::Kind::set) ? type.dim : 0; }
+bool is_union_or_intersection(const Expr& expr) {
+  return expr.kind == ExprKind::quantified &&
+         (expr.quantifier == Quantifier::set_union || expr.quantifier == Quantifier::set_inter);
+}
+
+bool is_complement(const Expr& expr) {
+  return expr.kind == ExprKind::call && expr.operands.size() == 2 &&
+         expr.operands[0]->kind == ExprKind::name && expr.operands[0]->text == "complement";
+}
+
+// Whether an expression is a set builder, or made of ones, that does not say its dimension.
+bool wants_dimension(const Expr& expr) {
+  if (expr.kind == ExprKind::builder) return expr.bindings[0].type == nullptr;
+  if (is_set_operation(expr)) return wants_dimension(*expr.operands[0]) && wants_dimension(*expr.operands[1]);
+  if (is_complement(expr)) return wants_dimension(*expr.operands[1]);
+  return is_union_or_intersection(expr) && wants_dimension(*expr.operands[0]);
+}
+
+// The dimension of a set, or of the sets that a point may be in.
+std::uint32_t dimension_of(const Type& type) {
+  return type.is(Type::Kind::real) && type.is_scalar() ? 1 : type.dim;
+}
 
 }  // namespace
 
@@ -29,13 +49,18 @@ std::pair<Type, Type> Checker::check_pair(const Expr& a, const Expr& b) {
 }
 
 Type Checker::check_set(const Expr& expr, std::uint32_t dim) {
+  if (dim == 0 || !wants_dimension(expr)) return check(expr);
   Type type;
   if (expr.kind == ExprKind::builder) {
     type = check_builder(expr, dim);
-  } else if (expr.kind == ExprKind::quantified) {
-    type = check_quantified(expr, dim);
+  } else if (is_set_operation(expr)) {
+    const Type a = check_set(*expr.operands[0], dim);
+    const Type b = check_set(*expr.operands[1], dim);
+    if (!a.is_error() && !b.is_error()) type = check_set_operation(expr, a, b);
+  } else if (is_complement(expr)) {
+    type = check_complement(expr, dim);
   } else {
-    return check(expr);
+    type = check_quantified(expr, dim);
   }
   model_.set_type(expr, type);
   return type;
@@ -78,52 +103,75 @@ Type Checker::check_builder(const Expr& expr, std::uint32_t dim) {
   return {Type::Kind::set, relation.tube, type.dim, Known::by_solving, nullptr};
 }
 
+// Binds the time at hand, within a window where `t in [a, b]` states one, whose ends are instants then.
 bool Checker::binds_time(const Expr& expr) {
   const Binding& bound = expr.bindings[0];
-  if (expr.bindings.size() > 1 || bound.domain != nullptr) {
-    not_supported(bound.name.range,
-                  fmt::format("`{}` over anything but all of the time line", spelling(expr.quantifier)));
+  if (model_.time == nullptr || expr.bindings.size() > 1 || bound.name.text != model_.time->name.text) {
+    auto& diagnostic = diagnostics().report(Code::not_the_time, bound.name.range, bound.name.text);
+    if (model_.time != nullptr) diagnostic.note(fmt::format("the time line is `{}`", model_.time->name.text));
     return false;
   }
-  if (model_.time != nullptr && bound.name.text == model_.time->name.text) return true;
-  auto& diagnostic = diagnostics().report(Code::not_the_time, bound.name.range, bound.name.text);
-  if (model_.time != nullptr) diagnostic.note(fmt::format("the time line is `{}`", model_.time->name.text));
-  return false;
+  if (bound.domain == nullptr) return true;
+  const Type window = check(*bound.domain);
+  if (window.is_error()) return false;
+  if (bound.domain->kind != ExprKind::interval || !window.is(Type::Kind::domain)) {
+    diagnostics().report(Code::wrong_type, bound.domain->range, "a span of time `[a, b]`", describe(window));
+    return false;
+  }
+  if (!require_constant(*bound.domain, window)) return false;
+  for (const Expr* end : bound.domain->operands) {
+    if (model_.type(*end).is_error()) {  // oo
+      diagnostics().report(Code::misplaced_infinity, end->range);
+      return false;
+    }
+    model_.instants.push_back(end);
+  }
+  return true;
 }
 
 Type Checker::check_quantified(const Expr& expr, std::uint32_t dim) {
-  const bool stated = std::exchange(stated_, nullptr) == &expr;
-  const bool is_set = expr.quantifier == Quantifier::set_union || expr.quantifier == Quantifier::set_inter;
-  if (!is_set && ranges_over_numbers(expr)) return check_over_range(expr, stated);
+  if (is_union_or_intersection(expr)) return check_union(expr, dim);
+  if (ranges_over_numbers(expr)) return check_over_range(expr);
   switch (expr.quantifier) {
-    case Quantifier::forall: {
-      if (!binds_time(expr)) return {};
-      const bool pointwise = std::exchange(pointwise_, true);
-      const Type body = stated ? check_stated(*expr.operands[0]) : check(*expr.operands[0]);
-      pointwise_ = pointwise;
-      if (body.is_error()) return {};
-      if (!body.is(Type::Kind::boolean)) {
-        diagnostics().report(Code::wrong_type, expr.operands[0]->range, "a relation", describe(body));
-        return {};
-      }
-      if (!stated) return not_supported(expr.range, "`forall` within a relation");
-      return {Type::Kind::boolean, false, 0, Known::by_solving, nullptr};
-    }
-    case Quantifier::set_union: {
-      if (!binds_time(expr)) return {};
-      const Type body = check_set(*expr.operands[0], dim);
-      if (body.is_error()) return {};
-      if (!body.is(Type::Kind::set)) {
-        diagnostics().report(Code::wrong_type, expr.operands[0]->range, "a set", describe(body));
-        return {};
-      }
-      return {Type::Kind::set, false, body.dim, Known::by_solving, nullptr};
-    }
+    case Quantifier::forall:
+    case Quantifier::exists:
+      return check_over_time(expr);
     case Quantifier::minimum:
       return check_minimum(expr);
     default:
       return not_supported(expr.range, fmt::format("`{}` with bound names", spelling(expr.quantifier)));
   }
+}
+
+// forall(t) and exists(t).
+Type Checker::check_over_time(const Expr& expr) {
+  if (!binds_time(expr)) return {};
+  const bool nested = std::exchange(pointwise_, true);
+  const Type body = check(*expr.operands[0]);
+  pointwise_ = nested;
+  if (body.is_error()) return {};
+  if (!body.is(Type::Kind::boolean)) {
+    diagnostics().report(Code::wrong_type, expr.operands[0]->range, "a relation", describe(body));
+    return {};
+  }
+  model_.set_stated(expr);
+  return {Type::Kind::boolean, false, 0, Known::by_solving, nullptr};
+}
+
+// union(t), inter(i in 1..n) and their like.
+Type Checker::check_union(const Expr& expr, std::uint32_t dim) {
+  const bool ranges = ranges_over_numbers(expr);
+  if (ranges ? !bind_ranges(expr) : !binds_time(expr)) return {};
+  if (!ranges && expr.bindings[0].domain != nullptr)
+    return not_supported(expr.bindings[0].domain->range, "a union over a part of the time line");
+  Type body = check_set(*expr.operands[0], dim);
+  if (ranges) body = unbound(expr, body);
+  if (body.is_error()) return {};
+  if (!body.is(Type::Kind::set)) {
+    diagnostics().report(Code::wrong_type, expr.operands[0]->range, "a set", describe(body));
+    return {};
+  }
+  return {Type::Kind::set, ranges && body.tube, body.dim, Known::by_solving, nullptr};
 }
 
 Type Checker::check_minimum(const Expr& expr) {
@@ -144,6 +192,7 @@ Type Checker::check_minimum(const Expr& expr) {
   }
   if (!is_stated_side(expr))
     return not_supported(expr.range, "`min` over a set other than alone on one side of `==`");
+  model_.set_stated(expr);
   return body;
 }
 
@@ -165,39 +214,65 @@ Type Checker::check_distance(const Expr& expr) {
   }
   if (!is_stated_side(expr))
     return not_supported(expr.range, "`distance` other than alone on one side of `==`");
+  model_.set_stated(expr);
   return {Type::Kind::real, point.tube, 0, Known::by_solving, nullptr};
 }
 
-Type Checker::check_set_relation(const Expr& expr, const BuiltInFunction& function) {
-  const bool stated = std::exchange(stated_, nullptr) == &expr;
-  const auto [a, b] = check_pair(*expr.operands[1], *expr.operands[2]);
-  if (a.is_error() || b.is_error()) return {};
-  for (std::size_t i = 0; i < 2; ++i) {
-    const Type& type = i == 0 ? a : b;
-    if (type.is(Type::Kind::set)) continue;
-    diagnostics().report(Code::wrong_type, expr.operands[i + 1]->range, "a set", describe(type));
+bool Checker::require_sets(const Expr& expr, const Expr& a, const Expr& b) {
+  const Type of_a = model_.type(a), of_b = model_.type(b);
+  if (of_a.is_error() || of_b.is_error()) return false;
+  for (const Expr* side : {&a, &b}) {
+    const Type type = model_.type(*side);
+    if (type.is(Type::Kind::set) && !type.is_array()) continue;
+    diagnostics().report(Code::wrong_type, side->range, "a set", describe(type));
+    return false;
+  }
+  if (of_a.dim == of_b.dim) return true;
+  diagnostics().report(Code::sizes_differ, expr.range, describe(of_a), describe(of_b));
+  return false;
+}
+
+Type Checker::check_set_relation(const Expr& expr, const Expr& a, const Expr& b) {
+  if (!require_sets(expr, a, b)) return {};
+  model_.set_stated(expr);
+  return combined(Type::Kind::boolean, 0, model_.type(a), model_.type(b));
+}
+
+Type Checker::check_set_equality(const Expr& expr, const Type& a, const Type& b) {
+  if (!require_sets(expr, *expr.operands[0], *expr.operands[1])) return {};
+  if (a.tube || b.tube) {
+    diagnostics().report(Code::zone_over_time, expr.operands[a.tube ? 0 : 1]->range, model_.time->name.text);
     return {};
   }
-  if (a.dim != b.dim) {
-    diagnostics().report(Code::sizes_differ, expr.range, describe(a), describe(b));
-    return {};
-  }
-  if (!stated) return not_supported(expr.range, fmt::format("`{}` within a relation", function.name));
+  model_.set_stated(expr);
   return {Type::Kind::boolean, false, 0, Known::by_solving, nullptr};
 }
 
-Type Checker::check_stated(const Expr& expr) {
-  if (expr.kind == ExprKind::binary && expr.op == Operator::logical_and) {
-    const Type a = check_stated(*expr.operands[0]);
-    const Type b = check_stated(*expr.operands[1]);
-    const Type type = a.is_error() || b.is_error() ? Type{} : check_logic(expr, a, b);
-    model_.set_type(expr, type);
-    return type;
+Type Checker::check_set_operation(const Expr& expr, const Type& a, const Type& b) {
+  if (!a.is(Type::Kind::set) && !b.is(Type::Kind::set)) return wrong_operands(expr, a, b);
+  if (!require_sets(expr, *expr.operands[0], *expr.operands[1])) return {};
+  return combined(Type::Kind::set, a.dim, a, b);
+}
+
+Type Checker::check_complement(const Expr& expr, std::uint32_t dim) {
+  const Expr& written = *expr.operands[1];
+  const Type set = check_set(written, dim);
+  model_.set_reference(*expr.operands[0], {nullptr, Reference::kNoLocal, BuiltIn::complement});
+  if (set.is_error() || (set.is(Type::Kind::set) && !set.is_array())) return set;
+  diagnostics().report(Code::wrong_type, written.range, "a set", describe(set));
+  return {};
+}
+
+// Of a set builder its relation at the point is meant, which is an expression.
+Type Checker::check_point_in_set(const Expr& expr, const Type& point, const Type& set) {
+  if (!point.is(Type::Kind::real) || point.is_array() || point.is_matrix() || set.is_array())
+    return wrong_operands(expr, point, set);
+  if (std::max(point.dim, 1U) != set.dim) {
+    diagnostics().report(Code::sizes_differ, expr.range, describe(point), describe(set));
+    return {};
   }
-  stated_ = &expr;
-  const Type type = check(expr);
-  stated_ = nullptr;
-  return type;
+  if (model_.unfold(*expr.operands[1]).kind != ExprKind::builder) model_.set_stated(expr);
+  return combined(Type::Kind::boolean, 0, point, set);
 }
 
 }  // namespace hcsp::lang

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The compiler's state. Its functions are spread over unknowns.cpp (the time line and the unknowns) and
-// constraints.cpp.
+// The compiler's state. Its functions are spread over unknowns.cpp (the time line and the unknowns),
+// constraints.cpp, logic.cpp and sets.cpp.
 #pragma once
 
 #include <map>
@@ -19,13 +19,17 @@ namespace hcsp::lang {
 
 class Compiler {
  public:
-  explicit Compiler(Model& model)
+  /// `further` are instants of the time line that the model does not spell out.
+  Compiler(Model& model, std::vector<double> further)
       : model_(model),
+        further_(std::move(further)),
         problem_(std::make_unique<Problem>(model.name)),
         unknowns_{*problem_, {}},
         evaluator_(model, unknowns_) {}
 
   std::unique_ptr<Problem> run();
+  /// Those that the constraints turned out to need besides.
+  [[nodiscard]] const std::vector<double>& missing_instants() const { return evaluator_.missing_instants(); }
 
  private:
   // The time line and the unknowns.
@@ -46,24 +50,59 @@ class Compiler {
   std::optional<double> precision_of(const Expr& expr);
   std::optional<Box> frame_of(const Expr& expr);
 
-  // Constraints.
+  // Constraints (constraints.cpp).
   void compile_constraint(const ConstraintItem& item);
-  void state(const Expr& expr);
-  void state_relation(const Expr& expr);
+  /// States a relation, or that it does not hold.
+  void state(const Expr& expr, bool wanted = true);
+  void state_relation(const Expr& expr, bool wanted);
+  void state_truth(const Term& relation, const std::optional<Window>& window = {});
   bool state_equality(const Expr& expr);
   void state_derivative(const Expr& derivative, const Expr& value);
-  void state_union(const Expr& set, const Expr& zone);
-  void state_disjoint(const Expr& expr);
-  void state_meets(const Expr& expr);
   void state_range(const Expr& range, const Expr& value);
-  [[nodiscard]] bool is_plain(const Expr& expr) const;
   [[nodiscard]] bool calls(const Expr& expr, BuiltIn function) const;
-  /// The symbol of a set unknown that the expression names; reports otherwise.
-  const Symbol* set_symbol(const Expr& expr);
-  std::optional<SetBuilder> zone_of(const Expr& expr);
   std::string next_name();
-  void state_for_each(const Expr& expr);
-  hcsp::Expr relation_of(const Term& term);
+  std::optional<Term> relation_of(const Expr& expr, bool wanted);
+
+  // Logic (logic.cpp).
+  struct Claim {
+    const Expr* relation;
+    bool wanted;
+  };
+  /// A relation that is to hold or not, for some values of what a quantifier binds.
+  struct Alternative {
+    std::vector<Claim> claims;
+    std::vector<int> at = {};
+  };
+  void state_logic(const Expr& expr, bool wanted);
+  void state_quantified(const Expr& expr, bool wanted);
+  void state_for_each(const Expr& expr, bool wanted);
+  void state_at_least(const Expr& expr, int count, std::vector<Alternative> alternatives);
+  void state_over_time(const Expr& expr, bool wanted);
+  void state_at_an_instant(const Expr& expr, bool wanted, const std::optional<Window>& window);
+  std::optional<Window> window_of(const Expr& expr);
+  [[nodiscard]] bool connects(const Expr& expr) const;
+
+  // Sets (sets.cpp).
+  struct NamedSet {
+    const Expr* expr;
+    SetVariable set;
+  };
+  void state_set_relation(const Expr& expr, bool wanted);
+  void state_set_equality(const Expr& a, const Expr& b, bool wanted);
+  void state_subset(const Expr& a, const Expr& b, bool wanted);
+  void state_disjoint(const Expr& a, const Expr& b, bool wanted);
+  void state_meets(const Expr& a, const Expr& b, bool wanted);
+  void state_point_in_set(const Expr& point, const Expr& set, bool wanted);
+  void collect_sets(const Expr& expr, std::vector<NamedSet>& found);
+  std::optional<SetVariable> grid_of(const Expr& a, const Expr& b);
+  std::optional<SetTerm> set_term(const Expr& expr, SetVariable grid, bool meet_over_time = false);
+  std::optional<SetVariable> set_variable(const Expr& expr, SetVariable grid);
+  void state_same(SetTerm a, SetTerm b);
+  SetVariable set_equal_to(SetTerm term, SetVariable grid);
+  bool define_set(SetTerm whole, const Expr& expr, SetVariable grid);
+  bool define_by_folding(SetTerm whole, const Expr& expr, SetVariable grid);
+  bool is_zone(const Expr& expr) const;
+  std::optional<SetBuilder> zone_of(const Expr& expr, bool wanted = true);
 
   /// Runs an action on the Problem; what it refuses is reported at `range`.
   template <class Action>
@@ -74,16 +113,18 @@ class Compiler {
       model_.diagnostics().report(Code::out_of_range, range, refused.what());
     }
   }
-  [[nodiscard]] const SetVariable& set_of(const Symbol& symbol) const {
-    return std::get<SetVariable>(unknowns_.handles.at(&symbol).front());
+  void not_supported(const SourceRange& range, std::string_view what) {
+    model_.diagnostics().report(Code::not_supported, range, what);
   }
 
   Model& model_;
+  std::vector<double> further_;
   std::unique_ptr<Problem> problem_;
   Unknowns unknowns_;
   Evaluator evaluator_;
   std::unordered_map<const Symbol*, TubePlan> plans_;
-  std::unordered_map<const Symbol*, double> precisions_;
+  std::unordered_map<VariableId, double> precisions_;  // of the sets
+  bool at_every_instant_ = false;  // what is stated holds, or does not, at every instant on its own
   std::unordered_map<const Expr*, std::optional<Box>> domains_;  // as they were stated
   std::string constraint_;                                       // the name of the constraint at hand
   std::unordered_map<std::string, int> names_;  // of all constraints: how often they were asked for

@@ -26,7 +26,18 @@ bool is_unknown(const Symbol& symbol) {
 
 }  // namespace
 
-std::unique_ptr<Problem> compile(Model& model) { return Compiler(model).run(); }
+// Instants that show only when constraints are put together (x(i*dt), i in 1..n) join the time line, and the
+// model is compiled once more.
+std::unique_ptr<Problem> compile(Model& model) {
+  std::vector<double> further;
+  while (true) {
+    Compiler compiler(model, further);
+    std::unique_ptr<Problem> problem = compiler.run();
+    const std::vector<double>& missing = compiler.missing_instants();
+    if (problem == nullptr || missing.empty()) return problem;
+    further.insert(further.end(), missing.begin(), missing.end());
+  }
+}
 
 std::unique_ptr<Problem> Compiler::run() {
   plan_tubes();
@@ -39,7 +50,7 @@ std::unique_ptr<Problem> Compiler::run() {
   // In the order of definition, so that a long chain of lets is no deep recursion.
   for (const Symbol* symbol : model_.definitions) {
     const auto* let = symbol->as<LetItem>();
-    if (!symbol->type.is(Type::Kind::real) || symbol->unknown) continue;
+    if (!symbol->type.is(Type::Kind::real) || symbol->unknown || symbol->takes_instants) continue;
     evaluator_.define(*symbol, let != nullptr ? *let->value : *symbol->as<ParamItem>()->value);
   }
   for (const Item& item : model_.tree().items) {
@@ -60,7 +71,7 @@ void Compiler::plan_tubes() {
 }
 
 std::vector<double> Compiler::known_instants() {
-  std::vector<double> instants;
+  std::vector<double> instants = further_;
   for (const auto& [symbol, plan] : plans_) {
     for (const TubePart& part : plan) instants.insert(instants.end(), part.stamps.begin(), part.stamps.end());
   }
@@ -257,8 +268,9 @@ std::optional<Unknowns::Handle> Compiler::make_set(const Symbol& symbol, const s
   std::optional<Box> frame;
   if (item.domain != nullptr) frame = frame_of(*item.domain);
   if (!precision || (item.domain != nullptr && !frame)) return {};
-  precisions_.emplace(&symbol, *precision);
-  return problem_->set(name, symbol.type.dim, *precision, frame);
+  const SetVariable set = problem_->set(name, symbol.type.dim, *precision, frame);
+  precisions_.emplace(set.id, *precision);
+  return set;
 }
 
 }  // namespace hcsp::lang

@@ -2,6 +2,7 @@
 // Calls: functions of the model, by substitution; tubes at an instant; built-in functions.
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <utility>
 
 #include "domains/interval/functions.h"
@@ -40,14 +41,31 @@ Value Evaluator::at_instant(const Expr& expr) {
   const Expr& instant = *expr.operands[1];
   if (instant.kind == ExprKind::name && model_.reference(instant).symbol == model_.time)
     return value(*expr.operands[0]);
-  const auto written = number(instant);
-  if (!written) return {};
-  const double at = written->nearest();
-  if (!unknowns_->problem.time_line()->gate_at(at)) return {};  // reported when the time line was made
-  const auto outer = std::exchange(instant_, at);
-  Value found = value(*expr.operands[0]);
-  instant_ = outer;
+  const Value written = value(instant);
+  if (written.empty()) return {};
+  Instant taken;
+  if (const auto* found = std::get_if<hcsp::Expr>(&written.front())) {
+    taken = *found;
+  } else {
+    taken = known_instant(instant, std::get<Number>(written.front()));
+  }
+  if (std::holds_alternative<std::monostate>(taken)) return {};
+  Value found;
+  at(taken, [&] { found = value(*expr.operands[0]); });
   return found;
+}
+
+// One that is none of the time line's is remembered: with it the model is compiled once more.
+Instant Evaluator::known_instant(const Expr& expr, const Number& written) {
+  const double at = written.nearest();
+  const TimeLine& line = *unknowns_->problem.time_line();
+  if (line.gate_at(at)) return at;
+  if (at < line.start() || at > line.end() || std::isnan(at)) {
+    model_.diagnostics().report(Code::off_the_time_line, expr.range, at, line.start(), line.end());
+    return {};
+  }
+  missing_instants_.push_back(at);
+  return line.start();
 }
 
 namespace {

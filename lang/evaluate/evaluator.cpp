@@ -165,8 +165,23 @@ hcsp::Expr Evaluator::expression(Problem& problem, const Term& term) {
   return std::get<hcsp::Expr>(term);
 }
 
+// What is stated as a constraint is no value: a connective of it, a relation between sets, a derivative. A
+// relation between reals at an instant to be found is stated, but has a value.
+bool Evaluator::has_value(const Expr& expr) {
+  if (!model_.is_stated(expr) || expr.kind == ExprKind::name) return true;
+  if (expr.kind == ExprKind::binary && !is_logical(expr.op)) {
+    const Type side = model_.type(*expr.operands[1]);
+    if (side.is(Type::Kind::real) || side.is(Type::Kind::domain)) return true;
+  }
+  const bool is_function =
+      expr.kind == ExprKind::call && model_.reference(*expr.operands[0]).built_in == BuiltIn::none;
+  if (is_function) return true;
+  model_.diagnostics().report(Code::not_supported, expr.range, "this relation within another");
+  return false;
+}
+
 Value Evaluator::value(const Expr& expr) {
-  if (!take_step(expr)) return {};
+  if (!take_step(expr) || !has_value(expr)) return {};
   ++depth_;
   Value found = value_of_kind(expr);
   --depth_;
@@ -215,14 +230,16 @@ Value Evaluator::value_of_kind(const Expr& expr) {
 // ---- Names.
 
 std::optional<hcsp::Expr> Unknowns::component(const Handle& handle, std::size_t i,
-                                              std::optional<double> instant) const {
+                                              const Instant& instant) const {
   if (const auto* real = std::get_if<RealVariable>(&handle)) return problem(*real);
   if (const auto* integer = std::get_if<IntegerVariable>(&handle)) return problem(*integer);
   if (const auto* boolean = std::get_if<BooleanVariable>(&handle)) return problem(*boolean);
   if (const auto* vector = std::get_if<VectorVariable>(&handle)) return problem.component(*vector, i);
   const auto* tube = std::get_if<TubeVariable>(&handle);
   if (tube == nullptr) return {};
-  return instant ? problem.at(*tube, *instant)[i] : problem(*tube)[i];
+  if (const auto* known = std::get_if<double>(&instant)) return problem.at(*tube, *known)[i];
+  if (const auto* found = std::get_if<hcsp::Expr>(&instant)) return problem.at(*tube, *found)[i];
+  return problem(*tube)[i];
 }
 
 Value Evaluator::name(const Expr& expr) {
@@ -239,15 +256,43 @@ Value Evaluator::symbol(const Symbol& symbol) {
                            : param != nullptr && !symbol.unknown ? param->value
                                                                  : nullptr;
   if (definition == nullptr) return unknown(symbol);
-  const std::pair key(&symbol, instant_);
+  // A tube at an instant to be found is one value an alternative.
+  if (symbol.takes_instants) return value(*definition);
+  const DefinitionKey key = key_of(symbol);
   if (const auto known = definitions_.find(key); known != definitions_.end()) return known->second;
   Value found = value(*definition);
   return definitions_.emplace(key, std::move(found)).first->second;
 }
 
+Evaluator::DefinitionKey Evaluator::key_of(const Symbol& symbol) const {
+  const auto* known = std::get_if<double>(&instant_);
+  const auto* found = std::get_if<hcsp::Expr>(&instant_);
+  return {&symbol, known != nullptr ? std::optional(*known) : std::nullopt,
+          found != nullptr ? std::optional(found->node()) : std::nullopt};
+}
+
+std::optional<SetVariable> Evaluator::set(const Expr& expr) {
+  const bool indexed = expr.kind == ExprKind::index;
+  const Expr& named = indexed ? *expr.operands[0] : expr;
+  const Symbol* symbol = named.kind == ExprKind::name ? model_.reference(named).symbol : nullptr;
+  if (symbol == nullptr || !symbol->type.is(Type::Kind::set)) return {};
+  std::size_t element = 0;
+  Type type = symbol->type;
+  for (std::size_t i = 1; indexed && i < expr.operands.size(); ++i) {
+    const auto at = offset(*expr.operands[i], type);
+    if (!at) return {};
+    element = element * type.arrays.front().size() + *at;
+    type = component_of(type);
+  }
+  const auto found = unknowns_->handles.find(symbol);
+  if (found == unknowns_->handles.end()) return {};
+  return std::get<SetVariable>(found->second[element]);
+}
+
 Value Evaluator::unknown(const Symbol& symbol) {
   if (&symbol == model_.time) {
-    if (instant_) return {Number::of(Interval(*instant_))};
+    if (const auto* known = std::get_if<double>(&instant_)) return {Number::of(Interval(*known))};
+    if (const auto* found = std::get_if<hcsp::Expr>(&instant_)) return {*found};
     return {unknowns_->problem.time()};
   }
   return unknown_part(symbol, 0, symbol.type.terms());
@@ -450,6 +495,8 @@ Value Evaluator::relation(const Expr& expr, const Value& a, const Value& b) {
 
 Value Evaluator::membership(const Expr& expr) {
   const Value point = value(*expr.operands[0]);
+  if (model_.type(*expr.operands[1]).is(Type::Kind::set))
+    return membership_in_builder(*expr.operands[1], point);
   const DomainValue bounds = domain(*expr.operands[1]);
   if (point.empty() || bounds.empty()) return {};
   std::optional<hcsp::Expr> all;
@@ -463,6 +510,17 @@ Value Evaluator::membership(const Expr& expr) {
   }
   if (!all) return {boolean(true)};
   return {*all};
+}
+
+// The point is in { a | relation } when the relation holds of it.
+Value Evaluator::membership_in_builder(const Expr& written, const Value& point) {
+  if (point.empty()) return {};
+  const Expr& builder = model_.unfold(written);
+  const std::uint32_t local = model_.reference(builder).local;
+  Value outer = std::exchange(locals_[local], point);
+  Value relation = value(*builder.operands[0]);
+  locals_[local] = std::move(outer);
+  return relation;
 }
 
 Value Evaluator::conditional(const Expr& expr) {

@@ -9,7 +9,9 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <tuple>
 #include <unordered_map>
+#include <utility>
 
 #include "domains/box.h"
 #include "lang/evaluate/value.h"
@@ -21,6 +23,9 @@ namespace hcsp::lang {
 /// A Boolean constant.
 Term boolean(bool truth);
 
+/// The instant at which tubes are taken: the one at hand, a known one, or one to be found.
+using Instant = std::variant<std::monostate, double, hcsp::Expr>;
+
 /// The unknowns of a Problem by the symbol that they were declared as.
 struct Unknowns {
   using Handle =
@@ -31,7 +36,7 @@ struct Unknowns {
 
   /// The i-th component, of a tube at an instant or at the time at hand; none of a set.
   [[nodiscard]] std::optional<hcsp::Expr> component(const Handle& handle, std::size_t i,
-                                                    std::optional<double> instant) const;
+                                                    const Instant& instant) const;
 };
 
 class Evaluator {
@@ -59,8 +64,25 @@ class Evaluator {
 
   /// Evaluates a definition ahead of its uses.
   void define(const Symbol& symbol, const Expr& definition) {
-    definitions_.emplace(std::pair(&symbol, instant_), value(definition));
+    definitions_.emplace(key_of(symbol), value(definition));
   }
+  /// The set unknown that an expression names; none where it names none, or after a report.
+  std::optional<SetVariable> set(const Expr& expr);
+  /// Binds the whole numbers of an expression to some values.
+  void bind_numbers(const Expr& expr, const std::vector<int>& at);
+  /// Runs body() with tubes taken at an instant.
+  template <class Body>
+  void at(const Instant& instant, Body body) {
+    const Instant outer = std::exchange(instant_, instant);
+    body();
+    instant_ = outer;
+  }
+  /// Whether the value of an expression varies with the time at hand.
+  [[nodiscard]] bool varies(const Expr& expr) const {
+    return model_.type(expr).tube && std::holds_alternative<std::monostate>(instant_);
+  }
+  /// Known instants that tubes were taken at and that are none of the time line, but lie on it.
+  [[nodiscard]] const std::vector<double>& missing_instants() const { return missing_instants_; }
   /// Binds the point of a set builder, or of a minimum over a set.
   void bind(std::uint32_t local, Value value);
   /// The truth of a relation between constants.
@@ -79,6 +101,7 @@ class Evaluator {
   Value part(const Expr& expr, std::size_t first, std::size_t count);
   std::optional<std::size_t> offset(const Expr& written, const Type& base);
   Value over_range(const Expr& expr);
+  void bind_number(const Expr& range, int value);
   Value combined(const Expr& expr, const std::vector<Value>& values);
   Value comprehension(const Expr& expr);
   Value unary(const Expr& expr);
@@ -102,11 +125,13 @@ class Evaluator {
   Value power(const Expr& expr);
   Value relation(const Expr& expr, const Value& a, const Value& b);
   Value membership(const Expr& expr);
+  Value membership_in_builder(const Expr& written, const Value& point);
   Value conditional(const Expr& expr);
 
   Value call(const Expr& expr);
   Value function_call(const Expr& expr, const Symbol& function);
   Value at_instant(const Expr& expr);
+  Instant known_instant(const Expr& expr, const Number& written);
   Value built_in(const Expr& expr, BuiltIn function);
   Value data_value(const Expr& expr, BuiltIn function);
   Term scalar_function(BuiltIn function, const Term& a);
@@ -122,6 +147,7 @@ class Evaluator {
   /// The value, unless a component of it is a constant that does not exist (1/0).
   Value defined(const Expr& expr, Value value);
   bool take_step(const Expr& expr);
+  bool has_value(const Expr& expr);
 
   Model& model_;
   /// For constants that take an expression to tell, 3*sqrt(2) < 5 for one, where there is no other Problem.
@@ -129,8 +155,13 @@ class Evaluator {
   std::optional<Unknowns> none_;
   Unknowns* unknowns_ = nullptr;
   std::unordered_map<std::uint32_t, Value> locals_;
-  std::optional<double> instant_;  // the instant at which tubes are taken; the one at hand when none
-  std::map<std::pair<const Symbol*, std::optional<double>>, Value> definitions_;
+  /// A definition has a value an instant.
+  using DefinitionKey = std::tuple<const Symbol*, std::optional<double>, std::optional<NodeId>>;
+  [[nodiscard]] DefinitionKey key_of(const Symbol& symbol) const;
+
+  Instant instant_;
+  std::vector<double> missing_instants_;
+  std::map<DefinitionKey, Value> definitions_;
   std::map<std::pair<const Table*, std::size_t>, std::optional<Column>> converted_;
   std::uint64_t steps_ = 0;
   std::uint32_t depth_ = 0;

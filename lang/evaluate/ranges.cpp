@@ -22,13 +22,21 @@ bool Evaluator::for_each(const Expr& expr, const std::function<bool(const std::v
     for (std::int64_t i = extent->first; i <= extent->last; ++i) {
       if (!take_step(written)) return false;
       at.back() = static_cast<int>(i);
-      bind(model_.reference(written).local, {*Number::parse(std::to_string(i))});
+      bind_number(written, at.back());
       if (!bind_from(k + 1)) return false;
     }
     at.pop_back();
     return true;
   };
   return bind_from(0);
+}
+
+void Evaluator::bind_number(const Expr& range, int value) {
+  bind(model_.reference(range).local, {*Number::parse(std::to_string(value))});
+}
+
+void Evaluator::bind_numbers(const Expr& expr, const std::vector<int>& at) {
+  for (std::size_t k = 0; k < at.size(); ++k) bind_number(*expr.bindings[k].domain, at[k]);
 }
 
 Value Evaluator::over_range(const Expr& expr) {

@@ -54,6 +54,8 @@ enum class BuiltIn : std::uint8_t {
   distance,
   disjoint,
   meets,
+  subset,
+  complement,
   at_least,
   // Words of the language that are not solved yet.
   unsupported,

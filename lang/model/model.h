@@ -30,6 +30,7 @@ struct Symbol {
   State state = State::unvisited;
   Type type;                      ///< of the value; of a function, its result
   bool unknown = false;           ///< a parameter whose value is a domain: an unknown of that domain
+  bool takes_instants = false;    ///< tubes at instants to be found occur in its definition
   std::vector<Type> parameters;   ///< of a function
   std::uint32_t first_local = 0;  ///< of a function: its parameters' locals, then those of its where
   const Table* table = nullptr;   ///< of data; null when reading it failed
@@ -82,6 +83,16 @@ class Model {
   }
   void set_reference(const Expr& expr, const Reference& reference) { grow(references_, expr) = reference; }
 
+  /// Whether a relation is one to state as a constraint, no expression of reals: it speaks of sets, of a
+  /// derivative, or of relations that each hold at every instant or at some.
+  [[nodiscard]] bool is_stated(const Expr& expr) const {
+    return expr.id < stated_.size() && stated_[expr.id];
+  }
+  void set_stated(const Expr& expr) {
+    if (expr.id >= stated_.size()) stated_.resize(tree_->expressions());
+    stated_[expr.id] = true;
+  }
+
   /// The expression that a name of a `let` stands for, followed to the end; any other expression is itself.
   [[nodiscard]] const Expr& unfold(const Expr& expr) const;
 
@@ -96,6 +107,7 @@ class Model {
   Diagnostics* diagnostics_;
   std::vector<Type> types_;
   std::vector<Reference> references_;
+  std::vector<bool> stated_;
 };
 
 }  // namespace hcsp::lang

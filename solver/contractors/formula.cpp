@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "solver/contractors/in_at_least.h"
 #include "solver/expression/operators.h"
 
 namespace hcsp {

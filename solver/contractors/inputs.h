@@ -25,6 +25,9 @@ class Inputs {
   };
   Inputs(const Program& program, Context context);
 
+  /// Leaves only some items of a timed program to be looked at; an untimed one has no time to be outside.
+  void look_only_at(ItemSet window) { window_ = std::move(window); }
+
   /// The distinct variables among the inputs.
   [[nodiscard]] const std::vector<VariableId>& variables() const { return variables_; }
   /// Whether the program's value depends on the time at hand. An untimed program has the one item 0.
@@ -38,7 +41,9 @@ class Inputs {
 
   /// Looks the domains up; to be called first in every run of the contractor.
   void open(Access& access);
-  /// The items at which an input may have changed since the last run.
+  /// The items at hand: those of the window, or all.
+  [[nodiscard]] ItemSet in_window() const;
+  /// Those of them at which an input may have changed since the last run.
   [[nodiscard]] ItemSet changed(const Access& access) const;
   [[nodiscard]] Interval value(std::uint32_t input, std::size_t item) const;
   /// Whether a sampled tube has no reading, and no other bound, at an item: there set contractors learn
@@ -82,6 +87,7 @@ class Inputs {
   std::vector<std::size_t> place_of_;  // by input: its variable's place
   std::vector<Place> places_;          // by variable
   std::vector<std::uint32_t> contractible_, point_;
+  std::optional<ItemSet> window_;
   bool timed_ = false;
 };
 

@@ -13,9 +13,22 @@ namespace hcsp {
 
 namespace {
 
-// Where a zone is unbounded, painting stays within this many cells of the origin: a fixed region, so that the
-// fixed point does not depend on how far the tree has grown.
+// Where a zone is unbounded, painting stays within this many cells of the origin, and of where the set began:
+// a fixed region, so that the fixed point does not depend on how far the tree has grown.
 constexpr std::int64_t kHome = 1024;
+
+Region home_of(const SetInterval& initial) {
+  Region home = initial.reach();
+  for (std::size_t axis = 0; axis < initial.dim(); ++axis) {
+    home.lo[axis] = std::min(home.lo[axis], -kHome);
+    home.hi[axis] = std::max(home.hi[axis], kHome);
+  }
+  return home;
+}
+
+struct Everywhere {
+  static Decision decide(const Region&) { return Decision::all; }
+};
 
 std::vector<VariableId> with(std::vector<VariableId> variables, VariableId v) {
   if (std::find(variables.begin(), variables.end(), v) == variables.end()) variables.push_back(v);
@@ -23,10 +36,14 @@ std::vector<VariableId> with(std::vector<VariableId> variables, VariableId v) {
 }
 
 Planes keep_painted(Planes target, Planes painted) { return {target.lower, target.upper & painted.lower}; }
+Planes rest_outside(Planes painted, Planes home) {
+  return {painted.lower, painted.upper & (painted.lower | ~home.lower)};
+}
+Planes keep_upper(Planes target, Planes painted) { return {target.lower, target.upper & painted.upper}; }
 
 class UnionContractor final : public Contractor {
  public:
-  UnionContractor(std::string name, std::string constraint, VariableId set, std::size_t set_dim,
+  UnionContractor(std::string name, std::string constraint, VariableId set, const SetInterval& initial,
                   Program program, Inputs inputs, std::optional<Ring> ring)
       : Contractor(std::move(name), std::move(constraint), Cost::search, with(inputs.variables(), set),
                    with(inputs.variables(), set)),
@@ -35,9 +52,10 @@ class UnionContractor final : public Contractor {
         inputs_(std::move(inputs)),
         ring_(ring),
         point_(inputs_.point()),
-        zone_(program_, point_, set_dim),
-        hull_(program_) {
-    point_.resize(set_dim, Inputs::kNone);
+        zone_(program_, point_, initial.dim()),
+        hull_(program_),
+        home_(home_of(initial)) {
+    point_.resize(initial.dim(), Inputs::kNone);
   }
 
   void contract(Access& access) override {
@@ -113,15 +131,16 @@ class UnionContractor final : public Contractor {
     return zone_bounds(grid);
   }
 
-  // S+ := S+ without what no item's zone may hold. Says nothing unless every item has a reading and a bounded
-  // zone.
+  // S+ := S+ without what no item's zone may hold. Says nothing unless every item has a reading; where a zone
+  // is unbounded, nothing about what is far from home.
   Region keep_outer(Access& access, SetInterval& set) {
     std::vector<std::optional<Region>> bounds(inputs_.items());
+    bool bounded = true;
     for (std::size_t item = 0; item < inputs_.items(); ++item) {
       if (inputs_.no_reading_at(item) || access.should_stop()) return {};
       inputs_.load(hull_, item);
       bounds[item] = zone_bounds(set.grid());
-      if (bounds[item] && !is_addressable(*bounds[item])) return {};
+      bounded = bounded && (!bounds[item] || is_addressable(*bounds[item]));
     }
     SetInterval painted(set.dim(), set.precision());
     for (std::size_t item = 0; item < inputs_.items(); ++item) {
@@ -129,12 +148,17 @@ class UnionContractor final : public Contractor {
       if (!bounds[item]) continue;
       zone_.at(set.grid(), inputs_, item, Brush::outer);
       if (auto zone = disc(set.grid(), Brush::outer)) {
-        painted.include(*bounds[item], *zone);
+        painted.include(clipped(*bounds[item]), *zone);
       } else {
-        painted.include(*bounds[item], zone_);
+        painted.include(clipped(*bounds[item]), zone_);
       }
     }
-    return combine(set, painted, keep_painted, SetInterval::everywhere());
+    if (bounded) return combine(set, painted, keep_painted, SetInterval::everywhere());
+    SetInterval home(set.dim(), set.precision());
+    Everywhere all;
+    home.include(home_, all);
+    combine(painted, home, rest_outside, SetInterval::everywhere());
+    return combine(set, painted, keep_upper, SetInterval::everywhere());
   }
 
   static Interval one_of(const Interval& x) {
@@ -168,8 +192,8 @@ class UnionContractor final : public Contractor {
 
   [[nodiscard]] Region clipped(Region bounds) const {
     for (std::size_t axis = 0; axis < point_.size(); ++axis) {
-      if (bounds.lo[axis] <= -Grid::kReach) bounds.lo[axis] = std::min(-kHome, bounds.hi[axis] - 1);
-      if (bounds.hi[axis] >= Grid::kReach) bounds.hi[axis] = std::max(kHome, bounds.lo[axis] + 1);
+      if (bounds.lo[axis] <= -Grid::kReach) bounds.lo[axis] = std::min(home_.lo[axis], bounds.hi[axis] - 1);
+      if (bounds.hi[axis] >= Grid::kReach) bounds.hi[axis] = std::max(home_.hi[axis], bounds.lo[axis] + 1);
     }
     return bounds;
   }
@@ -240,22 +264,23 @@ class UnionContractor final : public Contractor {
   Program program_;
   Inputs inputs_;
   std::optional<Ring> ring_;
-  std::vector<std::uint32_t> point_;          // by axis of the set
-  RelationZone zone_;                         // at the item that is being painted
-  Evaluation hull_;                           // for all else
+  std::vector<std::uint32_t> point_;  // by axis of the set
+  RelationZone zone_;                 // at the item that is being painted
+  Evaluation hull_;                   // for all else
+  Region home_;
   std::vector<std::size_t> in_time_, order_;  // items, while painting
 };
 
 }  // namespace
 
 std::unique_ptr<Contractor> make_union_contractor(std::string name, std::string constraint, VariableId set,
-                                                  std::size_t set_dim, const Dag& dag, NodeId relation,
+                                                  const SetInterval& initial, const Dag& dag, NodeId relation,
                                                   const Inputs::Context& context, bool fast_paths) {
   Program program(dag, {relation});
   Inputs inputs(program, context);
   std::optional<Ring> ring = fast_paths ? match_ring(dag, relation) : std::nullopt;
   if (ring && ring->relation == Op::equal) ring.reset();
-  return std::make_unique<UnionContractor>(std::move(name), std::move(constraint), set, set_dim,
+  return std::make_unique<UnionContractor>(std::move(name), std::move(constraint), set, initial,
                                            std::move(program), std::move(inputs), ring);
 }
 

@@ -4,6 +4,7 @@
 #include <memory>
 #include <string>
 
+#include "domains/set_interval.h"
 #include "solver/contractors/inputs.h"
 
 namespace hcsp {
@@ -13,9 +14,10 @@ namespace hcsp {
 ///   S- gains the cells that lie in the zone of some item for every x of its domain (Jaulin 2011, contractor
 ///   C2); S+ keeps the cells that may lie in the zone of some item, which takes a reading at every item; x is
 ///   contracted, item by item, so that its zone leaves out the cells outside S+.
-/// At an item where a sampled tube has no reading the zone says nothing.
+/// `initial` is the domain that the set begins with. At an item where a sampled tube has no reading the zone
+/// says nothing.
 std::unique_ptr<Contractor> make_union_contractor(std::string name, std::string constraint, VariableId set,
-                                                  std::size_t set_dim, const Dag& dag, NodeId relation,
+                                                  const SetInterval& initial, const Dag& dag, NodeId relation,
                                                   const Inputs::Context& context, bool fast_paths);
 
 }  // namespace hcsp

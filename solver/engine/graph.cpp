@@ -22,4 +22,18 @@ ContractorId ContractorGraph::add_contractor(std::unique_ptr<Contractor> contrac
   return id;
 }
 
+ContractorGraph ContractorGraph::part(std::vector<std::unique_ptr<Contractor>> contractors) const {
+  ContractorGraph graph;
+  for (const Variable& variable : variables_) graph.variables_.emplace_back(variable.name_, true, nullptr);
+  for (auto& contractor : contractors) {
+    for (const std::span<const VariableId> joined : {contractor->reads(), contractor->writes()}) {
+      for (const VariableId v : joined) {
+        if (!graph.variables_[v].present()) graph.variables_[v].initial_ = variables_[v].initial().clone();
+      }
+    }
+    graph.add_contractor(std::move(contractor));
+  }
+  return graph;
+}
+
 }  // namespace hcsp

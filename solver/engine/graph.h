@@ -23,6 +23,8 @@ class ContractorGraph {
     [[nodiscard]] const std::string& name() const { return name_; }
     /// Made by a decomposition, not declared by the model.
     [[nodiscard]] bool hidden() const { return hidden_; }
+    /// Whether it is there: a part of a graph has only the variables that its contractors join.
+    [[nodiscard]] bool present() const { return initial_ != nullptr; }
     [[nodiscard]] const Slot& initial() const { return *initial_; }
     [[nodiscard]] Slot& initial() { return *initial_; }
     [[nodiscard]] const std::vector<ContractorId>& readers() const { return readers_; }
@@ -43,6 +45,9 @@ class ContractorGraph {
 
   /// Adds a contractor; its variables must exist (std::invalid_argument otherwise).
   ContractorId add_contractor(std::unique_ptr<Contractor> contractor);
+
+  /// A graph of these contractors and, under the same ids, of the variables that they join.
+  [[nodiscard]] ContractorGraph part(std::vector<std::unique_ptr<Contractor>> contractors) const;
 
   /// The initial domain of a variable; D must be the lattice that it was added with (std::bad_cast
   /// otherwise).

@@ -21,6 +21,25 @@ std::size_t Access::place_in(VariableId id) const {
   return std::lower_bound(places_.begin(), places_.end(), std::pair(id, std::size_t{0}))->second;
 }
 
+const Slot& Access::slot(VariableId id) const { return *run_.slots_[id]; }
+
+void Access::narrow(VariableId id, const Slot& bound) {
+  Slot& slot = *run_.slots_[id];
+  if (slot.narrow(bound)) {
+    for (const ContractorId reader : run_.graph_.variable(id).readers())
+      run_.agenda_.wake(run_.turn_[reader]);
+  }
+  if (slot.is_empty()) fail(id);
+}
+
+PropagationOptions Access::limits() const {
+  PropagationOptions options;
+  options.cancel = run_.options_.cancel;
+  options.clock = run_.options_.clock;
+  if (run_.options_.time_limit > 0) options.time_limit = run_.options_.time_limit - run_.elapsed();
+  return options;
+}
+
 void Access::settled() { settled_ = true; }
 
 bool Access::should_stop() const { return run_.failure_.has_value() || run_.out_of_limits(); }
@@ -30,7 +49,8 @@ Propagation::Propagation(const ContractorGraph& graph, PropagationOptions option
       options_(std::move(options)),
       started_(options_.clock()),
       counts_(graph.contractors().size()) {
-  for (const auto& variable : graph.variables()) slots_.push_back(variable.initial().clone());
+  for (const auto& variable : graph.variables())
+    slots_.push_back(variable.present() ? variable.initial().clone() : nullptr);
   const std::size_t contractors = graph.contractors().size();
   for (ContractorId id = 0; id < contractors; ++id) {
     access_.push_back(Access(*this, id));
@@ -89,7 +109,7 @@ bool Propagation::end_pass(Observer* observer) {
   bool small = pass_ > 1;
   open_.resize(slots_.size(), 0.0);
   for (std::size_t v = 0; v < slots_.size(); ++v) {
-    const double open = slots_[v]->open();
+    const double open = slots_[v] == nullptr ? 0.0 : slots_[v]->open();
     if (open < (1.0 - options_.threshold) * open_[v]) small = false;
     open_[v] = open;
   }
@@ -100,6 +120,7 @@ Ending Propagation::run(Observer* observer) {
   for (const auto& contractor : graph_.contractors()) contractor->begin();
   failure_.reset();
   for (VariableId v = 0; v < slots_.size(); ++v) {
+    if (slots_[v] == nullptr) continue;
     slots_[v]->wake_all(graph_.variable(v).readers().size());
     if (slots_[v]->is_empty() && !failure_) failure_ = Failure{std::nullopt, v, std::nullopt};
   }

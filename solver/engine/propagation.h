@@ -65,6 +65,10 @@ class Access {
   /// says when, for a variable that has a time.
   template <Lattice D>
   void report(VariableId id, const typename D::Delta& change, std::optional<std::array<double, 2>> time = {});
+  /// A domain, whatever its lattice.
+  [[nodiscard]] const Slot& slot(VariableId id) const;
+  /// Meets a domain with another of its lattice, and reports that.
+  void narrow(VariableId id, const Slot& bound);
   /// Tells that another run right away would change nothing: the contractor's own changes then do not wake
   /// it.
   void settled();
@@ -72,6 +76,8 @@ class Access {
   void fail(VariableId variable, std::optional<std::array<double, 2>> time = {});
   /// True when a limit was reached: a long contraction may return early, for the run is going to end.
   [[nodiscard]] bool should_stop() const;
+  /// The limits that are left, for a propagation within this one.
+  [[nodiscard]] PropagationOptions limits() const;
 
  private:
   friend class Propagation;
@@ -107,6 +113,9 @@ class Propagation {
   void set_domain(VariableId id, D domain) {
     slot<D>(id).domain = std::move(domain);
   }
+
+  /// The same, whatever the lattice.
+  void set_domain(VariableId id, const Slot& domain) { slots_[id] = domain.clone(); }
 
   Ending run(Observer* observer = nullptr);
 

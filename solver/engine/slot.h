@@ -20,6 +20,11 @@ class Slot {
   [[nodiscard]] virtual double open() const = 0;
   /// Gives every reader the Delta "everything".
   virtual void wake_all(std::size_t readers) = 0;
+  /// The meet, or the join, with a domain of the same lattice and shape.
+  virtual void meet_with(const Slot& other) = 0;
+  virtual void join_with(const Slot& other) = 0;
+  /// meet_with(), with the Delta of the change handed to every reader; whether there was any.
+  virtual bool narrow(const Slot& bound) = 0;
   /// A reader is about to run: what came in since its last run is what it is shown.
   virtual void hand_over(std::size_t reader) = 0;
   /// Forgets what came in for a reader.
@@ -41,6 +46,14 @@ class TypedSlot : public Slot {
     incoming.assign(readers, everything(domain));
     pending.assign(readers, {});
   }
+  void meet_with(const Slot& other) override { domain = meet(domain, of(other)); }
+  void join_with(const Slot& other) override { domain = join(domain, of(other)); }
+  bool narrow(const Slot& bound) override {
+    const typename D::Delta change = contract(domain, of(bound));
+    if (change.is_none()) return false;
+    for (auto& delta : incoming) delta.join(change);
+    return true;
+  }
   void hand_over(std::size_t reader) override {
     pending[reader] = std::move(incoming[reader]);
     incoming[reader] = {};
@@ -51,6 +64,9 @@ class TypedSlot : public Slot {
   // By reader: the changes since its last run, and those that the run at hand is shown. Two, because a
   // contractor may change a variable that it also reads.
   std::vector<typename D::Delta> incoming, pending;
+
+ private:
+  static const D& of(const Slot& slot) { return dynamic_cast<const TypedSlot&>(slot).domain; }
 };
 
 }  // namespace hcsp

@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: Apache-2.0
+// Connectives and quantifiers of relations that are constraints themselves: a conjunction is stated part by
+// part, everything else as alternatives. Negations go down to the relations; a relation that varies with time
+// is one truth, "at every instant", so that not to hold is not to hold at some instant.
+#include <algorithm>
+
+#include "lang/compile/compiler.h"
+
+namespace hcsp::lang {
+
+bool Compiler::connects(const Expr& expr) const {
+  switch (expr.kind) {
+    case ExprKind::unary:
+    case ExprKind::quantified:
+    case ExprKind::conditional:
+      return true;
+    case ExprKind::call:
+      return calls(expr, BuiltIn::at_least);
+    case ExprKind::binary:
+      return is_logical(expr.op) ||
+             (is_comparison(expr.op) && model_.type(*expr.operands[0]).is(Type::Kind::boolean));
+    default:
+      return false;
+  }
+}
+
+void Compiler::state(const Expr& written, bool wanted) {
+  const Expr& expr = model_.unfold(written);
+  const bool is_conjunction = expr.kind == ExprKind::binary && expr.op == Operator::logical_and;
+  // Of what holds one by one at every instant, not all hold when one of them fails at some instant.
+  if (!model_.is_stated(expr) && (wanted || !evaluator_.varies(expr) || at_every_instant_))
+    return state_relation(expr, wanted);
+  if (connects(expr) || is_conjunction) return state_logic(expr, wanted);
+  if (!wanted && evaluator_.varies(expr) && !at_every_instant_) {
+    if (model_.is_stated(expr)) return state_at_an_instant(expr, false, {});
+    if (const auto relation = relation_of(expr, false))
+      guarded(expr.range, [&] {
+        problem_->constrain_sometime(next_name(), Evaluator::expression(*problem_, *relation));
+      });
+    return;
+  }
+  const Type side = expr.operands.size() > 1 ? model_.type(*expr.operands[1]) : Type{};
+  const bool of_sets = calls(expr, BuiltIn::disjoint) || calls(expr, BuiltIn::meets) ||
+                       calls(expr, BuiltIn::subset) || side.is(Type::Kind::set);
+  if (of_sets && expr.kind != ExprKind::quantified && !calls(expr, BuiltIn::distance))
+    return state_set_relation(expr, wanted);
+  if (state_equality(expr)) {
+    if (!wanted) not_supported(expr.range, "that this relation does not hold");
+    return;
+  }
+  state_relation(expr, wanted);
+}
+
+void Compiler::state_logic(const Expr& expr, bool wanted) {
+  if (expr.kind == ExprKind::quantified) return state_quantified(expr, wanted);
+  if (expr.kind == ExprKind::unary) return state(*expr.operands[0], !wanted);
+  if (evaluator_.varies(expr) && at_every_instant_ &&
+      !(expr.op == (wanted ? Operator::logical_and : Operator::logical_or)))
+    return not_supported(expr.range, "a choice at every instant between relations that are no values");
+  if (expr.kind == ExprKind::call) {
+    const auto least = evaluator_.whole(*expr.operands[1]);
+    std::vector<Alternative> alternatives;
+    for (const Expr* relation : expr.operands[2]->operands) alternatives.push_back({{{relation, wanted}}});
+    const int count = static_cast<int>(alternatives.size());
+    if (least) state_at_least(expr, wanted ? *least : count - *least + 1, std::move(alternatives));
+    return;
+  }
+  const Expr &a = *expr.operands[0], &b = *expr.operands[1];
+  if (expr.kind == ExprKind::conditional) {
+    const Claim then{&b, wanted}, otherwise{expr.operands[2], wanted};
+    return state_at_least(expr, 1, {{{{&a, true}, then}}, {{{&a, false}, otherwise}}});
+  }
+  const bool is_equivalence = expr.op == Operator::iff || expr.op == Operator::equal;
+  switch (expr.op) {
+    case Operator::logical_and:
+    case Operator::logical_or:
+      if ((expr.op == Operator::logical_and) == wanted) {
+        state(a, wanted);
+        state(b, wanted);
+        return;
+      }
+      return state_at_least(expr, 1, {{{{&a, wanted}}}, {{{&b, wanted}}}});
+    case Operator::implies:
+      if (wanted) return state_at_least(expr, 1, {{{{&a, false}}}, {{{&b, true}}}});
+      state(a, true);
+      return state(b, false);
+    default:
+      return state_at_least(
+          expr, 1,
+          {{{{&a, true}, {&b, is_equivalence == wanted}}}, {{{&a, false}, {&b, is_equivalence != wanted}}}});
+  }
+}
+
+void Compiler::state_quantified(const Expr& expr, bool wanted) {
+  if (!ranges_over_numbers(expr)) return state_over_time(expr, wanted);
+  if (expr.quantifier == Quantifier::forall && wanted) return state_for_each(expr, true);
+  if (expr.quantifier == Quantifier::exists && !wanted) return state_for_each(expr, false);
+  std::vector<Alternative> alternatives;
+  const bool bound = evaluator_.for_each(expr, [&](const std::vector<int>& at) {
+    alternatives.push_back({{{expr.operands[0], wanted}}, at});
+    return true;
+  });
+  if (!bound) return;
+  int least = 1;
+  if (expr.quantifier == Quantifier::at_least) {
+    const auto count = evaluator_.whole(*expr.operands[1]);
+    if (!count) return;
+    least = wanted ? *count : static_cast<int>(alternatives.size()) - *count + 1;
+  }
+  state_at_least(expr, least, std::move(alternatives));
+}
+
+// One constraint a value, called name[1, 2].
+void Compiler::state_for_each(const Expr& expr, bool wanted) {
+  const std::string outer = constraint_;
+  evaluator_.for_each(expr, [&](const std::vector<int>& at) {
+    constraint_ = fmt::format("{}[{}]", outer, fmt::join(at, ", "));
+    state(*expr.operands[0], wanted);
+    return !model_.diagnostics().any();
+  });
+  constraint_ = outer;
+}
+
+void Compiler::state_at_least(const Expr& expr, int count, std::vector<Alternative> alternatives) {
+  if (count <= 0) return;
+  if (static_cast<std::size_t>(count) > alternatives.size()) return state_truth(boolean(false));
+  std::vector<std::function<void()>> stated;
+  for (const Alternative& alternative : alternatives) {
+    stated.emplace_back([this, &expr, &alternative] {
+      if (!alternative.at.empty()) evaluator_.bind_numbers(expr, alternative.at);
+      for (const Claim& claim : alternative.claims) state(*claim.relation, claim.wanted);
+    });
+  }
+  guarded(expr.range,
+          [&] { problem_->constrain_at_least(next_name(), static_cast<std::size_t>(count), stated); });
+}
+
+// ---- Time.
+
+std::optional<Window> Compiler::window_of(const Expr& expr) {
+  const Expr* domain = expr.bindings[0].domain;
+  if (domain == nullptr) return {};
+  const auto from = evaluator_.number(*domain->operands[0]), to = evaluator_.number(*domain->operands[1]);
+  if (!from || !to) return {};
+  if (from->nearest() > to->nearest()) model_.diagnostics().report(Code::empty_interval, domain->range);
+  return Window{from->nearest(), to->nearest()};
+}
+
+void Compiler::state_over_time(const Expr& expr, bool wanted) {
+  const Expr& body = model_.unfold(*expr.operands[0]);
+  const std::optional<Window> window = window_of(expr);
+  if (model_.diagnostics().any()) return;
+  const bool always = (expr.quantifier == Quantifier::forall) == wanted;
+  if (model_.is_stated(body)) {
+    if (!always) return state_at_an_instant(body, wanted, window);
+    if (window) return not_supported(expr.bindings[0].domain->range, "a span of time for this relation");
+    const bool outer = std::exchange(at_every_instant_, true);
+    state(body, wanted);
+    at_every_instant_ = outer;
+    return;
+  }
+  const auto relation = relation_of(body, wanted);
+  if (!relation) return;
+  if (always || Evaluator::truth(*relation)) return state_truth(*relation, window);
+  guarded(expr.range, [&] {
+    problem_->constrain_sometime(next_name(), Evaluator::expression(*problem_, *relation), window);
+  });
+}
+
+// The relation holds, or does not, at an instant that is an unknown of its own.
+void Compiler::state_at_an_instant(const Expr& expr, bool wanted, const std::optional<Window>& window) {
+  guarded(expr.range, [&] {
+    const hcsp::Expr instant = problem_->instant(constraint_ + " instant", window);
+    evaluator_.at(instant, [&] { state(expr, wanted); });
+  });
+}
+
+}  // namespace hcsp::lang

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: Apache-2.0
+// Alternatives, quantifiers over time and the algebra of sets on random relations with a known solution
+// inside: it must still be inside afterwards.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "solver/problem.h"
+#include "tests/soundness/random_case.h"
+
+namespace hcsp::soundness {
+
+using slam_simulator::Random;
+
+namespace {
+
+// A motion that is constant over each item, the tube around it, and the truth of relations of both.
+struct Motion {
+  std::vector<std::array<double, 2>> at;  // by item
+
+  Motion(Random& random, Tube& domain) {
+    for (std::size_t item = 0; item < domain.items(); ++item) {
+      at.push_back({some_number(random), some_number(random)});
+      for (std::size_t c = 0; c < 2; ++c) domain.set(c, item, around(random, at.back()[c]));
+    }
+  }
+  [[nodiscard]] Truth always(const Relation& relation, const std::array<double, 2>& p) const {
+    Truth all = Truth::yes;
+    for (const auto& x : at) all = all && relation.at({{x[0], x[1]}, {p[0], p[1]}});
+    return all;
+  }
+};
+
+}  // namespace
+
+// At least so many of some relations, each at every instant, at some instant, or of a vector alone.
+TEST(RandomLogic, AlternativesOverTime) {
+  int tried = 0;
+  for (int seed = 1; seed <= instances(1500); ++seed) {
+    SCOPED_TRACE(seed);
+    Random random(static_cast<std::uint64_t>(seed) + 300000);
+    Problem problem("alternatives");
+    problem.set_time_line(TimeLine({0, 1, 2}));
+    Tube domain(problem.time_line(), 2);
+    const Motion motion(random, domain);
+    const auto x = problem.tube("x", domain);
+    const std::array<double, 2> s = {some_number(random), some_number(random)};
+    const auto p = problem.vector("p", Box{around(random, s[0]), around(random, s[1])});
+    RandomRelations make(static_cast<std::uint64_t>(seed), problem(x), problem(p));
+    std::vector<std::function<void()>> alternatives;
+    std::size_t hold = 0;
+    const int count = random.integer(2, 4);
+    for (int k = 0; k < count; ++k) {
+      const Relation relation = make.relation(2);
+      const bool sometime = random.chance(0.5);
+      const Truth truth = sometime ? !motion.always(!relation, s) : motion.always(relation, s);
+      // Of a relation that a term leaves undefined neither it nor its negation holds.
+      const bool defined_negation = !sometime || motion.always(relation, s) != Truth::unsure;
+      hold += truth == Truth::yes && defined_negation ? 1 : 0;
+      alternatives.emplace_back([&problem, relation, sometime] {
+        if (sometime) {
+          problem.constrain_sometime("some", relation.expression);
+        } else {
+          problem.constrain("all", relation.expression);
+        }
+      });
+    }
+    if (hold == 0) continue;
+    ++tried;
+    problem.constrain_at_least("choice", hold, alternatives);
+    const Result result = propagate(problem);
+    const Box& box = std::get<Box>(result["p"]);
+    ASSERT_TRUE(box[0].contains(s[0]) && box[1].contains(s[1])) << to_string(box);
+    const Tube& left = std::get<Tube>(result["x"]);
+    for (std::size_t item = 0; item < left.items(); ++item) {
+      ASSERT_TRUE(left.at(0, item).contains(motion.at[item][0]) &&
+                  left.at(1, item).contains(motion.at[item][1]))
+          << "item " << item;
+    }
+  }
+  EXPECT_GT(tried, instances(500));
+}
+
+// Sets that are zones of a vector, and what is made of them, also on a finer grid.
+TEST(RandomLogic, SetAlgebra) {
+  for (int seed = 1; seed <= instances(120); ++seed) {
+    SCOPED_TRACE(seed);
+    Random random(static_cast<std::uint64_t>(seed) + 400000);
+    const double s[2] = {some_number(random), some_number(random)};
+    Problem problem("sets");
+    const auto x = problem.vector("x", Box{around(random, s[0]), around(random, s[1])});
+    const auto set_s = problem.set("S", 2, 0.5), set_t = problem.set("T", 2, 0.5),
+               both = problem.set("B", 2, 0.5), odd = problem.set("O", 2, 0.5),
+               fine = problem.set("F", 2, 0.125), part = problem.set("P", 2, 0.125);
+    RandomRelations make(static_cast<std::uint64_t>(seed), problem(x), problem.point(2));
+    const Relation frame = in_box(problem.point(2)),
+                   zone_s = random.chance(0.7) ? frame && make.relation(2) : make.relation(2),
+                   zone_t = make.relation(2), zone_f = frame && make.relation(2);
+    problem.constrain_union("s", set_s, {2, zone_s.expression});
+    problem.constrain_union("t", set_t, {2, zone_t.expression});
+    problem.constrain_union("f", fine, {2, zone_f.expression});
+    const bool not_s = random.chance(0.5), not_t = random.chance(0.5), not_both = random.chance(0.5);
+    problem.constrain_intersection("both", {both.id, not_both}, {set_s.id, not_s}, {set_t.id, not_t});
+    problem.constrain_symmetric_difference("odd", {odd.id}, {set_s.id, not_s}, {set_t.id});
+    problem.constrain_intersection("part", {part.id}, {fine.id}, {problem.refined(set_s, fine).id, not_s});
+    problem.constrain_subset("sub", {part.id}, {fine.id});
+    const Result result = propagate(problem);
+    const Box& left = std::get<Box>(result["x"]);
+    ASSERT_TRUE(left[0].contains(s[0]) && left[1].contains(s[1])) << to_string(left);
+    const auto in = [&](const Relation& zone, const Interval& a1, const Interval& a2) {
+      return zone.at({{s[0], s[1]}, {a1, a2}});
+    };
+    const auto flipped = [](Truth truth, bool flip) { return flip ? !truth : truth; };
+    using Point = const Interval&;
+    const auto truth_s = [&](Point a, Point b) { return in(zone_s, a, b); };
+    const auto truth_t = [&](Point a, Point b) { return in(zone_t, a, b); };
+    expect_set(std::get<SetInterval>(result["S"]), random, truth_s);
+    expect_set(std::get<SetInterval>(result["T"]), random, truth_t);
+    expect_set(std::get<SetInterval>(result["B"]), random, [&](Point a, Point b) {
+      return flipped(flipped(truth_s(a, b), not_s) && flipped(truth_t(a, b), not_t), not_both);
+    });
+    expect_set(std::get<SetInterval>(result["O"]), random, [&](Point a, Point b) {
+      const Truth p = flipped(truth_s(a, b), not_s), q = truth_t(a, b);
+      return !(!(p && !q) && !(!p && q));
+    });
+    expect_set(std::get<SetInterval>(result["P"]), random,
+               [&](Point a, Point b) { return in(zone_f, a, b) && flipped(truth_s(a, b), not_s); });
+    if (HasFailure()) return;
+  }
+}
+
+}  // namespace hcsp::soundness
