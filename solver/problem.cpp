@@ -9,6 +9,7 @@
 #include "domains/check.h"
 #include "domains/rounding.h"
 #include "solver/contractors/alternatives.h"
+#include "solver/contractors/delay.h"
 #include "solver/contractors/derivative.h"
 #include "solver/contractors/disjoint.h"
 #include "solver/contractors/integrality.h"
@@ -33,8 +34,10 @@ struct Problem::Impl {
   std::map<VariableId, std::vector<Reading>> readings;
   std::map<VariableId, Shape> shapes;  // where they differ from the default
   bool fast_paths = true;
-  std::vector<std::unique_ptr<Contractor>>* alternative = nullptr;   // the one being stated
-  std::map<std::pair<VariableId, NodeId>, VariableId> values;        // of tubes at instants to be found
+  std::vector<std::unique_ptr<Contractor>>* alternative = nullptr;  // the one being stated
+  std::map<std::pair<VariableId, NodeId>, VariableId> values;       // of tubes at instants to be found
+  std::map<std::pair<std::vector<NodeId>, double>, VariableId> integrals;
+  std::map<std::pair<VariableId, double>, VariableId> delayed;       // tubes, by the delay
   std::map<std::pair<VariableId, double>, SetVariable> refinements;  // by the finer grid's precision
   std::set<std::string> hidden_names;
 
@@ -74,8 +77,10 @@ struct Problem::Impl {
     auto* outer = std::exchange(alternative, &contractors);
     const auto outer_motions = std::exchange(motions, std::make_shared<Motions>());
     const auto outer_values = values;
+    const auto outer_integrals = integrals;
     const auto restore = [&] {
       values = outer_values;
+      integrals = outer_integrals;
       alternative = outer;
       motions = outer_motions;
     };
@@ -249,6 +254,37 @@ VectorExpr Problem::at(TubeVariable x, Expr instant) {
   return found;
 }
 
+VectorExpr Problem::delayed(TubeVariable x, double delay) {
+  impl_->need_line();
+  require(std::isfinite(delay), "Problem: a delay of {}", delay);
+  const auto known = impl_->delayed.find({x.id, delay});
+  if (known != impl_->delayed.end()) return impl_->inputs(Input::Kind::tube, known->second, x.dim);
+  const std::string name = impl_->free_name(
+      fmt::format("{}(t {} {})", impl_->graph.variable(x.id).name(), delay < 0 ? "+" : "-", std::abs(delay)));
+  const VariableId value = impl_->add(name, Tube(impl_->line, x.dim), DomainKind::tube, true);
+  // It is what it is whatever holds: no alternative owns this.
+  impl_->graph.add_contractor(make_delay_contractor(name, value, x.id, *impl_->line, delay));
+  impl_->delayed.emplace(std::pair(x.id, delay), value);
+  return impl_->inputs(Input::Kind::tube, value, x.dim);
+}
+
+TubeVariable Problem::integral(const VectorExpr& f, double from) {
+  impl_->need_line();
+  const auto start = impl_->line->gate_at(from);
+  require(start.has_value(), "Problem: {} is not an instant of the time line", from);
+  std::vector<NodeId> nodes;
+  for (const Expr& component : f) nodes.push_back(impl_->node_of(component));
+  const auto known = impl_->integrals.find({nodes, from});
+  if (known != impl_->integrals.end()) return {known->second, f.size()};
+  const std::string name = impl_->free_name(fmt::format("integral from {}", from));
+  Tube domain(impl_->line, f.size());
+  for (std::size_t c = 0; c < f.size(); ++c) domain.set(c, 2 * *start, 0.0);
+  const VariableId value = impl_->add(name, std::move(domain), DomainKind::tube, true);
+  impl_->integrals.emplace(std::pair(nodes, from), value);
+  constrain_derivative(name, {value, f.size()}, f);
+  return {value, f.size()};
+}
+
 Expr Problem::instant(std::string name, const std::optional<Window>& window) {
   impl_->need_line();
   const TimeLine& line = *impl_->line;
@@ -286,8 +322,20 @@ void Problem::constrain_derivative(std::string name, TubeVariable x, const Vecto
   impl_->need_line();
   require(f.size() == x.dim, "Problem: der of a tube of dimension {} and {} components", x.dim, f.size());
   std::vector<NodeId> nodes;
-  for (const Expr& component : f) nodes.push_back(impl_->node_of(component));
-  impl_->state(make_derivative_contractor(std::move(name), x.id, x.dim, impl_->dag, nodes, impl_->context()));
+  std::vector<std::size_t> components;
+  for (const Expr& component : f) {
+    components.push_back(nodes.size());
+    nodes.push_back(impl_->node_of(component));
+  }
+  impl_->state(make_derivative_contractor(std::move(name), x.id, std::move(components), impl_->dag, nodes,
+                                          impl_->context()));
+}
+
+void Problem::constrain_derivative(std::string name, TubeVariable x, std::size_t component, Expr f) {
+  impl_->need_line();
+  require(component < x.dim, "Problem: component {} of {}", component + 1, x.dim);
+  impl_->state(make_derivative_contractor(std::move(name), x.id, {component}, impl_->dag, {impl_->node_of(f)},
+                                          impl_->context()));
 }
 
 void Problem::constrain_union(std::string name, SetVariable set, const SetBuilder& zone) {

@@ -107,6 +107,11 @@ class Problem {
   VectorExpr at(TubeVariable x, double t);
   /// The tube at an instant to be found, an expression of reals; on the time line, or what uses it is false.
   VectorExpr at(TubeVariable x, Expr instant);
+  /// The tube as it was `delay` ago, or will be where that is negative: x(t - delay) at the time at hand. Of
+  /// instants before the time line, or after it, nothing is known.
+  VectorExpr delayed(TubeVariable x, double delay);
+  /// The integral of f, expressions at the time at hand, from an instant of the time line on.
+  TubeVariable integral(const VectorExpr& f, double from);
   /// An instant to be found, on the time line or in the window.
   Expr instant(std::string name, const std::optional<Window>& window = {});
   /// The identity tube t.
@@ -126,6 +131,8 @@ class Problem {
                           const std::vector<std::function<void()>>& alternatives);
   /// der(x) == f for almost every t; x is continuous. f has x's dimension.
   void constrain_derivative(std::string name, TubeVariable x, const VectorExpr& f);
+  /// The same of one component of x.
+  void constrain_derivative(std::string name, TubeVariable x, std::size_t component, Expr f);
   /// set == union over t of zone(t); with no tube in the zone, set == zone.
   void constrain_union(std::string name, SetVariable set, const SetBuilder& zone);
   /// a and b share no point. Precisions must be equal: std::invalid_argument otherwise.

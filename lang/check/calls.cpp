@@ -101,12 +101,54 @@ Type Checker::check_instant(const Expr& expr, const Type& callee) {
     diagnostics().report(Code::wrong_type, instant.range, "an instant", describe(type));
     return {};
   }
-  if (type.tube) return not_supported(instant.range, "a tube at another time than the one at hand");
+  if (type.tube) {
+    if (delay_of(instant) != nullptr) return at;
+    return not_supported(instant.range, "a tube at a time that is not `t - d` with a constant d");
+  }
+  take_instant(instant, type);
+  at.tube = false;
+  return at;
+}
+
+// The d of t - d and t + d, a constant; null for anything else.
+const Expr* Checker::delay_of(const Expr& instant) const {
+  const bool is_sum =
+      instant.kind == ExprKind::binary && (instant.op == Operator::subtract || instant.op == Operator::add);
+  if (!is_sum) return nullptr;
+  const Expr &time = *instant.operands[0], &delay = *instant.operands[1];
+  const bool from_now = time.kind == ExprKind::name && model_.reference(time).symbol == model_.time;
+  return from_now && model_.type(delay).known != Known::by_solving ? &delay : nullptr;
+}
+
+void Checker::take_instant(const Expr& instant, const Type& type) {
   if (type.known == Known::now) model_.instants.push_back(&instant);
   // Of a parameter of a function it shows at the call only whether the instant is known.
   if (type.known == Known::by_solving || type.known == Known::at_call) ++instants_to_find_;
-  at.tube = false;
-  return at;
+}
+
+// integral(x, a, b), of a number or a vector that varies with time or does not.
+Type Checker::check_integral(const Expr& expr) {
+  const Type type = check(*expr.operands[1]);
+  bool bad = type.is_error();
+  if (!bad && (!type.is(Type::Kind::real) || type.is_array() || type.is_matrix())) {
+    diagnostics().report(Code::wrong_type, expr.operands[1]->range, "a tube", describe(type));
+    bad = true;
+  }
+  for (std::size_t i = 2; i < expr.operands.size(); ++i) {
+    const Type end = check(*expr.operands[i]);
+    if (!end.is_error() && require_scalar(*expr.operands[i], end)) {
+      take_instant(*expr.operands[i], end);
+    } else {
+      bad = true;
+    }
+  }
+  if (!bad && model_.time == nullptr) {
+    diagnostics().report(Code::no_time_line, expr.range);
+    bad = true;
+  }
+  if (bad) return {};
+  ++instants_to_find_;  // where the integrand is undefined, what uses the integral is false
+  return {Type::Kind::real, false, type.dim, Known::by_solving, nullptr};
 }
 
 Type Checker::check_built_in(const Expr& expr, const BuiltInFunction& function) {
@@ -120,6 +162,8 @@ Type Checker::check_built_in(const Expr& expr, const BuiltInFunction& function) 
       return check_der(expr);
     case BuiltIn::distance:
       return check_distance(expr);
+    case BuiltIn::integral:
+      return check_integral(expr);
     case BuiltIn::at_least:
       return check_at_least(expr);
     case BuiltIn::disjoint:
@@ -265,10 +309,11 @@ Type Checker::check_der(const Expr& expr) {
   }
   model_.set_stated(expr);
   const Expr& argument = *expr.operands[1];
-  const Symbol* symbol = argument.kind == ExprKind::name ? model_.reference(argument).symbol : nullptr;
+  const Expr& named = argument.kind == ExprKind::index ? *argument.operands[0] : argument;
+  const Symbol* symbol = named.kind == ExprKind::name ? model_.reference(named).symbol : nullptr;
   const bool is_tube = symbol != nullptr &&
                        (symbol->as<VarItem>() != nullptr || symbol->as<GivenItem>() != nullptr) && type.tube;
-  if (!is_tube) {
+  if (!is_tube || type.is_array()) {
     diagnostics().report(Code::der_of_what, argument.range);
     return {};
   }

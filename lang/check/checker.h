@@ -51,6 +51,7 @@ class Checker {
   bool require_constant(const Expr& expr, const Type& type);
   /// Known by the time the model is compiled: it may use parameters of functions and bound whole numbers.
   bool require_known(const Expr& expr, const Type& type);
+  void require_stated(const Expr& expr, const Type& found);
   bool require_scalar(const Expr& expr, const Type& type);
 
   // Expressions. `expr` is typed, recorded and returned; an error has been reported.
@@ -96,6 +97,9 @@ class Checker {
   Type check_given_function(const Expr& expr, const BuiltInFunction& function,
                             const std::vector<Type>& arguments);
   Type check_der(const Expr& expr);
+  Type check_integral(const Expr& expr);
+  [[nodiscard]] const Expr* delay_of(const Expr& instant) const;
+  void take_instant(const Expr& instant, const Type& type);
   bool check_count(const Expr& expr, std::string_view name, std::size_t fewest, std::size_t most);
 
   // Sets and quantifiers.

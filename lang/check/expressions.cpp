@@ -162,6 +162,7 @@ Type Checker::check_tuple(const Expr& expr) {
   Type type{Type::Kind::real, false, static_cast<std::uint32_t>(expr.operands.size()), Known::now, nullptr};
   std::size_t columns = 0;
   bool bad = false;
+  const Expr *data = nullptr, *computed = nullptr;  // domains of tubes, of two kinds
   for (const Expr* operand : expr.operands) {
     const Type component = check(*operand);
     if (component.is_error()) {
@@ -190,11 +191,14 @@ Type Checker::check_tuple(const Expr& expr) {
     }
     columns += is_column ? 1 : 0;
     if (component.is(Type::Kind::domain)) type.kind = Type::Kind::domain;
+    if (component.tube) (component.known == Known::now ? data : computed) = operand;
     if (is_column) type.data = component.data;
     type.tube = type.tube || component.tube;
     type.known = std::min(type.known, component.known);
   }
   if (bad) return {};
+  if (type.is(Type::Kind::domain) && data != nullptr && computed != nullptr)
+    return not_supported(computed->range, "what is computed from the time beside data");
   if (columns == 0) return type;
   if (columns != expr.operands.size()) {
     diagnostics().report(Code::wrong_type, expr.range, "columns only", "columns beside numbers");

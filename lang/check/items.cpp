@@ -244,6 +244,11 @@ void Checker::check_function(Symbol& symbol, const FunctionItem& item) {
   symbol.type = body;
 }
 
+// A domain is a constant, or computed from the time alone, which the compiler sees.
+void Checker::require_stated(const Expr& expr, const Type& found) {
+  if (!found.tube) require_constant(expr, found);
+}
+
 void Checker::check_given(Symbol& symbol, const GivenItem& item) {
   const Type wanted = resolve(*item.type);
   symbol.type = wanted;
@@ -252,7 +257,7 @@ void Checker::check_given(Symbol& symbol, const GivenItem& item) {
   if (wanted.is(Type::Kind::set)) {
     not_supported(item.value->range, "a given set");
   } else {
-    require_constant(*item.value, found);
+    require_stated(*item.value, found);
   }
 }
 
@@ -282,7 +287,7 @@ void Checker::check_variable(Symbol& symbol, const VarItem& item) {
     Type values = type;
     if (type.is(Type::Kind::set)) values.kind = Type::Kind::real;
     const bool fits = !type.is_error() && !domain.is_error() && require_domain(*item.domain, domain, values);
-    if (fits) require_constant(*item.domain, domain);
+    if (fits) require_stated(*item.domain, domain);
   }
   symbol.type = type;
 }

@@ -43,6 +43,8 @@ class Compiler {
   std::optional<Unknowns::Handle> make_element(const Symbol& symbol, const std::string& name,
                                                std::size_t element);
   std::optional<Unknowns::Handle> make_tube(const Symbol& symbol, const std::string& name);
+  void state_domain_over_time(const Symbol& symbol, const Expr& domain);
+  bool require_time_alone(const Term& term, const Expr& written);
   std::optional<Unknowns::Handle> make_plain(const Symbol& symbol, const std::string& name,
                                              std::size_t element);
   std::optional<Unknowns::Handle> make_set(const Symbol& symbol, const std::string& name,

@@ -67,13 +67,15 @@ bool Compiler::state_equality(const Expr& expr) {
 }
 
 void Compiler::state_derivative(const Expr& derivative, const Expr& value) {
-  const Symbol* symbol = model_.reference(*derivative.operands[1]).symbol;
-  const Value terms = evaluator_.value(value);
+  const auto part = evaluator_.tube(*derivative.operands[1]);
+  const Value terms = part ? evaluator_.value(value) : Value{};
   if (terms.empty()) return;
   VectorExpr f;
   for (const Term& term : terms) f.push_back(Evaluator::expression(*problem_, term));
-  const auto& tube = std::get<TubeVariable>(unknowns_.handles.at(symbol).front());
-  guarded(value.range, [&] { problem_->constrain_derivative(next_name(), tube, f); });
+  guarded(value.range, [&] {
+    if (part->dim == part->tube.dim) return problem_->constrain_derivative(next_name(), part->tube, f);
+    problem_->constrain_derivative(next_name(), part->tube, part->first, f.front());
+  });
 }
 
 void Compiler::state_range(const Expr& range, const Expr& value) {

@@ -30,7 +30,7 @@ class Planner {
       const BuiltIn function = model_.reference(*expr.operands[0]).built_in;
       if (function == BuiltIn::hold || function == BuiltIn::sampled) return rows(expr, function);
     }
-    model_.diagnostics().report(Code::not_supported, expr.range, "a given that is computed from t");
+    model_.diagnostics().report(Code::not_supported, expr.range, "a domain of this form");
     return {};
   }
 

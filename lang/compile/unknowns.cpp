@@ -4,6 +4,7 @@
 
 #include "lang/compile/compile.h"
 #include "lang/compile/compiler.h"
+#include "solver/expression/program.h"
 
 namespace hcsp::lang {
 
@@ -46,6 +47,11 @@ std::unique_ptr<Problem> Compiler::run() {
   for (const Symbol& symbol : model_.symbols) {
     if (is_unknown(symbol)) make_unknown(symbol);
   }
+  for (const Symbol& symbol : model_.symbols) {
+    const Expr* domain = is_unknown(symbol) ? stated_domain(symbol) : nullptr;
+    if (domain != nullptr && symbol.type.tube && model_.type(*domain).known != Known::now)
+      state_domain_over_time(symbol, *domain);
+  }
   if (model_.diagnostics().any()) return nullptr;
   // In the order of definition, so that a long chain of lets is no deep recursion.
   for (const Symbol* symbol : model_.definitions) {
@@ -65,7 +71,7 @@ std::unique_ptr<Problem> Compiler::run() {
 void Compiler::plan_tubes() {
   for (const Symbol& symbol : model_.symbols) {
     const Expr* domain = is_unknown(symbol) ? stated_domain(symbol) : nullptr;
-    if (domain == nullptr || !symbol.type.tube) continue;
+    if (domain == nullptr || !symbol.type.tube || model_.type(*domain).known != Known::now) continue;
     if (auto plan = plan_tube(model_, evaluator_, *domain)) plans_.emplace(&symbol, std::move(*plan));
   }
 }
@@ -215,6 +221,42 @@ std::optional<Unknowns::Handle> Compiler::make_tube(const Symbol& symbol, const 
   });
   if (is_sampled) problem_->set_readings(tube, std::move(given->readings));
   return tube;
+}
+
+// A domain that is computed from the time holds at every instant.
+void Compiler::state_domain_over_time(const Symbol& symbol, const Expr& domain) {
+  DomainValue bounds;
+  if (model_.type(domain).is(Type::Kind::real)) {
+    for (const Term& term : evaluator_.value(domain)) bounds.push_back({term, term});
+  } else {
+    bounds = evaluator_.domain(domain);
+  }
+  constraint_ = fmt::format("domain of {}", symbol.name.text);
+  std::size_t component = 0;
+  for (const Unknowns::Handle& handle : unknowns_.handles.at(&symbol)) {
+    // A domain of one element serves all of an array.
+    if (component == bounds.size()) component = 0;
+    for (const hcsp::Expr& x : (*problem_)(std::get<TubeVariable>(handle))) {
+      if (component == bounds.size()) return;  // after a report
+      const Bounds& bound = bounds[component++];
+      for (const auto& [end, is_lower] : {std::pair(bound.lo, true), std::pair(bound.hi, false)}) {
+        if (!end) continue;
+        if (!require_time_alone(*end, domain)) return;
+        const hcsp::Expr value = Evaluator::expression(*problem_, *end);
+        problem_->constrain(next_name(), is_lower ? value <= x : x <= value);
+      }
+    }
+  }
+}
+
+bool Compiler::require_time_alone(const Term& term, const Expr& written) {
+  const auto* expr = std::get_if<hcsp::Expr>(&term);
+  if (expr == nullptr) return true;
+  const Program program(expr->dag(), {expr->node()});
+  const bool alone = std::all_of(program.inputs().begin(), program.inputs().end(),
+                                 [](const Input& input) { return input.kind == Input::Kind::time; });
+  if (!alone) model_.diagnostics().report(Code::not_constant, written.range);
+  return alone;
 }
 
 std::optional<Unknowns::Handle> Compiler::make_plain(const Symbol& symbol, const std::string& name,

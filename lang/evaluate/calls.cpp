@@ -41,18 +41,53 @@ Value Evaluator::at_instant(const Expr& expr) {
   const Expr& instant = *expr.operands[1];
   if (instant.kind == ExprKind::name && model_.reference(instant).symbol == model_.time)
     return value(*expr.operands[0]);
-  const Value written = value(instant);
-  if (written.empty()) return {};
-  Instant taken;
-  if (const auto* found = std::get_if<hcsp::Expr>(&written.front())) {
-    taken = *found;
-  } else {
-    taken = known_instant(instant, std::get<Number>(written.front()));
-  }
+  const Instant taken = varies(instant) ? delayed(instant) : instant_of(instant);
   if (std::holds_alternative<std::monostate>(taken)) return {};
   Value found;
   at(taken, [&] { found = value(*expr.operands[0]); });
   return found;
+}
+
+// The instant that an expression says; none after a report.
+Instant Evaluator::instant_of(const Expr& expr) {
+  const Value written = value(expr);
+  if (written.empty()) return {};
+  if (const auto* found = std::get_if<hcsp::Expr>(&written.front())) return *found;
+  return known_instant(expr, std::get<Number>(written.front()));
+}
+
+// x(t - d) and x(t + d), at the time at hand or at an earlier one.
+Instant Evaluator::delayed(const Expr& instant) {
+  const auto written = number(*instant.operands[1]);
+  if (!written) return {};
+  const auto* outer = std::get_if<Delay>(&instant_);
+  const double further = instant.op == Operator::add ? -written->nearest() : written->nearest();
+  return Delay{(outer == nullptr ? 0.0 : outer->duration) + further};
+}
+
+// From the start where that is known, to the end; else backward from the end, or from the time line's start.
+Value Evaluator::integral(const Expr& expr) {
+  const Instant from = instant_of(*expr.operands[2]), to = instant_of(*expr.operands[3]);
+  Value integrand;
+  at({}, [&] { integrand = value(*expr.operands[1]); });
+  if (from.index() == 0 || to.index() == 0 || integrand.empty()) return {};
+  VectorExpr f;
+  for (const Term& term : integrand) f.push_back(expression(term));
+  const auto* known_from = std::get_if<double>(&from);
+  const auto* known_to = std::get_if<double>(&to);
+  Problem& problem = unknowns_->problem;
+  const double origin = known_from != nullptr ? *known_from
+                        : known_to != nullptr ? *known_to
+                                              : problem.time_line()->start();
+  const TubeVariable primitive = problem.integral(f, origin);
+  const auto at_end = [&](const Instant& end) {
+    if (const auto* known = std::get_if<double>(&end)) return problem.at(primitive, *known);
+    return problem.at(primitive, std::get<hcsp::Expr>(end));
+  };
+  const VectorExpr upper = at_end(to);
+  if (known_from != nullptr) return {upper.begin(), upper.end()};
+  const VectorExpr difference = upper - at_end(from);
+  return {difference.begin(), difference.end()};
 }
 
 // One that is none of the time line's is remembered: with it the model is compiled once more.
@@ -159,7 +194,7 @@ Value Evaluator::built_in(const Expr& expr, BuiltIn function) {
     }
     return count ? at_least(*count, relations) : Value{};
   }
-  if (function == BuiltIn::distance) return {};  // a relation of its own (compile)
+  if (function == BuiltIn::integral) return integral(expr);
   std::vector<Value> arguments;
   for (std::size_t i = 1; i < expr.operands.size(); ++i) {
     arguments.push_back(value(*expr.operands[i]));

@@ -239,6 +239,7 @@ std::optional<hcsp::Expr> Unknowns::component(const Handle& handle, std::size_t 
   if (tube == nullptr) return {};
   if (const auto* known = std::get_if<double>(&instant)) return problem.at(*tube, *known)[i];
   if (const auto* found = std::get_if<hcsp::Expr>(&instant)) return problem.at(*tube, *found)[i];
+  if (const auto* delay = std::get_if<Delay>(&instant)) return problem.delayed(*tube, delay->duration)[i];
   return problem(*tube)[i];
 }
 
@@ -267,33 +268,50 @@ Value Evaluator::symbol(const Symbol& symbol) {
 Evaluator::DefinitionKey Evaluator::key_of(const Symbol& symbol) const {
   const auto* known = std::get_if<double>(&instant_);
   const auto* found = std::get_if<hcsp::Expr>(&instant_);
-  return {&symbol, known != nullptr ? std::optional(*known) : std::nullopt,
-          found != nullptr ? std::optional(found->node()) : std::nullopt};
+  const auto* delay = std::get_if<Delay>(&instant_);
+  const double number = known != nullptr ? *known : delay != nullptr ? delay->duration : 0.0;
+  return {&symbol, instant_.index(), number, found != nullptr ? found->node() : NodeId{}};
 }
 
-std::optional<SetVariable> Evaluator::set(const Expr& expr) {
+// The element of an array, or the unknown itself, that an expression names, and the first of its components;
+// none where it names none, or after a report.
+std::optional<std::pair<Unknowns::Handle, std::size_t>> Evaluator::handle(const Expr& expr) {
   const bool indexed = expr.kind == ExprKind::index;
   const Expr& named = indexed ? *expr.operands[0] : expr;
   const Symbol* symbol = named.kind == ExprKind::name ? model_.reference(named).symbol : nullptr;
-  if (symbol == nullptr || !symbol->type.is(Type::Kind::set)) return {};
-  std::size_t element = 0;
+  const auto found = unknowns_->handles.find(symbol);
+  if (symbol == nullptr || found == unknowns_->handles.end()) return {};
+  std::size_t first = 0;
   Type type = symbol->type;
   for (std::size_t i = 1; indexed && i < expr.operands.size(); ++i) {
     const auto at = offset(*expr.operands[i], type);
     if (!at) return {};
-    element = element * type.arrays.front().size() + *at;
     type = component_of(type);
+    first += *at * type.terms();
   }
-  const auto found = unknowns_->handles.find(symbol);
-  if (found == unknowns_->handles.end()) return {};
-  return std::get<SetVariable>(found->second[element]);
+  const std::size_t each = symbol->type.components();
+  return std::pair(found->second[first / each], first % each);
+}
+
+std::optional<SetVariable> Evaluator::set(const Expr& expr) {
+  if (!model_.type(expr).is(Type::Kind::set)) return {};
+  const auto found = handle(expr);
+  return found ? std::optional(std::get<SetVariable>(found->first)) : std::nullopt;
+}
+
+std::optional<Evaluator::TubeComponents> Evaluator::tube(const Expr& expr) {
+  const auto found = handle(expr);
+  if (!found || !std::holds_alternative<TubeVariable>(found->first)) return {};
+  return TubeComponents{std::get<TubeVariable>(found->first), found->second, model_.type(expr).terms()};
 }
 
 Value Evaluator::unknown(const Symbol& symbol) {
   if (&symbol == model_.time) {
     if (const auto* known = std::get_if<double>(&instant_)) return {Number::of(Interval(*known))};
     if (const auto* found = std::get_if<hcsp::Expr>(&instant_)) return {*found};
-    return {unknowns_->problem.time()};
+    const hcsp::Expr time = unknowns_->problem.time();
+    if (const auto* delay = std::get_if<Delay>(&instant_)) return {time - Interval(delay->duration)};
+    return {time};
   }
   return unknown_part(symbol, 0, symbol.type.terms());
 }

@@ -23,8 +23,12 @@ namespace hcsp::lang {
 /// A Boolean constant.
 Term boolean(bool truth);
 
-/// The instant at which tubes are taken: the one at hand, a known one, or one to be found.
-using Instant = std::variant<std::monostate, double, hcsp::Expr>;
+/// So long ago, seen from the time at hand.
+struct Delay {
+  double duration;
+};
+/// The instant at which tubes are taken: the one at hand, a known one, one to be found, or an earlier one.
+using Instant = std::variant<std::monostate, double, hcsp::Expr, Delay>;
 
 /// The unknowns of a Problem by the symbol that they were declared as.
 struct Unknowns {
@@ -68,6 +72,13 @@ class Evaluator {
   }
   /// The set unknown that an expression names; none where it names none, or after a report.
   std::optional<SetVariable> set(const Expr& expr);
+  /// A tube unknown, one of an array, or a component of one: `dim` components from `first` on.
+  struct TubeComponents {
+    TubeVariable tube;
+    std::size_t first;
+    std::size_t dim;
+  };
+  std::optional<TubeComponents> tube(const Expr& expr);
   /// Binds the whole numbers of an expression to some values.
   void bind_numbers(const Expr& expr, const std::vector<int>& at);
   /// Runs body() with tubes taken at an instant.
@@ -78,9 +89,7 @@ class Evaluator {
     instant_ = outer;
   }
   /// Whether the value of an expression varies with the time at hand.
-  [[nodiscard]] bool varies(const Expr& expr) const {
-    return model_.type(expr).tube && std::holds_alternative<std::monostate>(instant_);
-  }
+  [[nodiscard]] bool varies(const Expr& expr) const { return model_.type(expr).tube && moves_with_time(); }
   /// Known instants that tubes were taken at and that are none of the time line, but lie on it.
   [[nodiscard]] const std::vector<double>& missing_instants() const { return missing_instants_; }
   /// Binds the point of a set builder, or of a minimum over a set.
@@ -94,6 +103,7 @@ class Evaluator {
   Value name(const Expr& expr);
   Value symbol(const Symbol& symbol);
   Value unknown(const Symbol& symbol);
+  std::optional<std::pair<Unknowns::Handle, std::size_t>> handle(const Expr& expr);
   Value unknown_part(const Symbol& symbol, std::size_t first, std::size_t count);
   Value cell(const Column& column, std::size_t row);
   Value index(const Expr& expr);
@@ -132,6 +142,12 @@ class Evaluator {
   Value function_call(const Expr& expr, const Symbol& function);
   Value at_instant(const Expr& expr);
   Instant known_instant(const Expr& expr, const Number& written);
+  Instant instant_of(const Expr& expr);
+  Instant delayed(const Expr& instant);
+  [[nodiscard]] bool moves_with_time() const {
+    return std::holds_alternative<std::monostate>(instant_) || std::holds_alternative<Delay>(instant_);
+  }
+  Value integral(const Expr& expr);
   Value built_in(const Expr& expr, BuiltIn function);
   Value data_value(const Expr& expr, BuiltIn function);
   Term scalar_function(BuiltIn function, const Term& a);
@@ -156,7 +172,7 @@ class Evaluator {
   Unknowns* unknowns_ = nullptr;
   std::unordered_map<std::uint32_t, Value> locals_;
   /// A definition has a value an instant.
-  using DefinitionKey = std::tuple<const Symbol*, std::optional<double>, std::optional<NodeId>>;
+  using DefinitionKey = std::tuple<const Symbol*, std::size_t, double, NodeId>;
   [[nodiscard]] DefinitionKey key_of(const Symbol& symbol) const;
 
   Instant instant_;

@@ -32,7 +32,7 @@ constexpr std::array kFunctions{
     BuiltInFunction{"floor", BuiltIn::floor, 1, 1},
     BuiltInFunction{"hold", BuiltIn::hold, 2, 2},
     BuiltInFunction{"image", BuiltIn::unsupported, 1, kAny},
-    BuiltInFunction{"integral", BuiltIn::unsupported, 3, 3},
+    BuiltInFunction{"integral", BuiltIn::integral, 3, 3},
     BuiltInFunction{"inverse", BuiltIn::inverse, 1, 1},
     BuiltInFunction{"last", BuiltIn::last, 1, 1},
     BuiltInFunction{"log", BuiltIn::log, 1, 1},

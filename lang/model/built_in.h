@@ -51,6 +51,7 @@ enum class BuiltIn : std::uint8_t {
   sampled,
   // In constraints.
   der,
+  integral,
   distance,
   disjoint,
   meets,

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "solver/problem.h"
 #include "tests/soundness/random_case.h"
@@ -126,6 +127,53 @@ TEST(RandomLogic, SetAlgebra) {
     expect_set(std::get<SetInterval>(result["P"]), random,
                [&](Point a, Point b) { return in(zone_f, a, b) && flipped(truth_s(a, b), not_s); });
     if (HasFailure()) return;
+  }
+}
+
+// x of a moment ago, and of a moment to come: what either tube says of a motion holds of the other.
+TEST(RandomLogic, Delays) {
+  for (int seed = 1; seed <= instances(500); ++seed) {
+    SCOPED_TRACE(seed);
+    Random random(static_cast<std::uint64_t>(seed) + 500000);
+    Problem problem("delay");
+    std::vector<double> instants{0};
+    while (instants.size() < 8)
+      instants.push_back(instants.back() + (random.chance(0.5) ? 0.5 : random.in(0.1, 1)));
+    problem.set_time_line(TimeLine(instants));
+    const auto line = problem.time_line();
+    Tube known(line, 2);
+    const Motion motion(random, known);
+    const double delay = random.chance(0.5) ? 0.5 * random.integer(-4, 4) : random.in(-2, 2);
+    // Beside an instant it is that instant, by definition.
+    const auto item_of = [&](double t) -> std::size_t {
+      for (std::size_t k = 0; k < instants.size(); ++k) {
+        if (std::abs(t - instants[k]) < 1e-14) return 2 * k;
+      }
+      for (std::size_t item = 0; item < line->items(); ++item) {
+        const Interval span = line->span(item);
+        if (item % 2 == 0 ? span.lo() == t : span.lo() < t && t < span.hi()) return item;
+      }
+      return line->items();
+    };
+    // The known tube is x, or else it is the delayed one.
+    const bool of_x = random.chance(0.5);
+    const auto x = of_x ? problem.tube("x", known) : problem.tube("x", 2);
+    const VectorExpr earlier = problem.delayed(x, delay);
+    const auto y = of_x ? problem.tube("y", 2) : problem.tube("y", known);
+    problem.constrain("same", problem(y) == earlier);
+    const Result result = propagate(problem);
+    const Tube &known_then = std::get<Tube>(result[of_x ? "x" : "y"]),
+               &made = std::get<Tube>(result[of_x ? "y" : "x"]);
+    const double shift = of_x ? -delay : delay;
+    for (std::size_t item = 0; item < line->items(); ++item) {
+      ASSERT_TRUE(known_then.at(0, item).contains(motion.at[item][0])) << "item " << item;
+      const Interval span = line->span(item);
+      for (const double t : {span.lo() + 0.25 * span.width(), span.mid(), span.hi() - 0.125 * span.width()}) {
+        const std::size_t from = item_of(t + shift);
+        if (from == line->items()) continue;
+        ASSERT_TRUE(made.at(1, item).contains(motion.at[from][1])) << t << " by " << shift;
+      }
+    }
   }
 }
 
