@@ -69,6 +69,7 @@ enum class Code : std::uint16_t {
   column_twice = 213,
   rows_differ = 214,
   missing_cell = 215,
+  broken_json = 216,
 
   no_time_line = 301,
   off_the_time_line = 302,

@@ -64,6 +64,7 @@ void check_data_names(Compilation& compilation, const std::map<std::string, std:
 void build(Compilation& compilation, const CompileOptions& options) {
   Model model(*compilation.tree, compilation.diagnostics);
   check(model, options.data_files);
+  compilation.types = dump_types(model);
   if (compilation.diagnostics.any()) return;
   const double start = options.clock();
   CompiledModel compiled;

@@ -46,6 +46,8 @@ struct CompiledModel {
 /// What became of a model: its syntax tree as far as it was read, and the Problem or what is wrong.
 struct Compilation {
   std::unique_ptr<SyntaxTree> tree;
+  std::string
+      types;  ///< a line a name of the model, in its order: `x : tube real[2]`; empty when it cannot be read
   Diagnostics diagnostics;
   std::optional<CompiledModel> model;  ///< exactly when there are no diagnostics
 };

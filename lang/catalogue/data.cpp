@@ -72,6 +72,12 @@ std::span<const CatalogueEntry> data_entries() {
       CatalogueEntry{Code::missing_cell, "column `{}`: the row ends before its cell",
                      "The row has fewer cells than the header. A blank cell keeps its comma.",
                      HCSP_SAMPLED("short_row.csv"), HCSP_SAMPLED("log.csv")},
+      CatalogueEntry{
+          Code::broken_json, "this is no table in JSON: {}",
+          "A table in JSON is an object of columns, {\"t\": [0, 0.1], \"range\": [5, null]}, or an array of\n"
+          "rows, [{\"t\": 0, \"range\": 5}, {\"t\": 0.1}]. null is a blank cell.",
+          "data log = json(\"broken.json\");\ntime t at log.t;",
+          "data log = json(\"log.json\");\ntime t at log.t;"},
   };
   return kEntries;
 }

@@ -160,14 +160,11 @@ void Checker::check_parameter(Symbol& symbol, const ParamItem& item) {
 }
 
 void Checker::check_data(Symbol& symbol, const DataItem& item) {
-  if (item.reader.text == "json") {
-    not_supported(item.reader.range, "data in JSON");
-    return;
-  }
-  if (item.reader.text != "csv") {
+  const bool is_json = item.reader.text == "json";
+  if (!is_json && item.reader.text != "csv") {
     diagnostics()
         .report(Code::unknown_function, item.reader.range, item.reader.text)
-        .note("data is read by `csv`");
+        .note("data is read by `csv` and `json`");
     return;
   }
   std::string path = beside(item.path.range.source->name(), std::string(item.path.text));
@@ -183,7 +180,8 @@ void Checker::check_data(Symbol& symbol, const DataItem& item) {
     diagnostics().report(Code::unreadable_data, place, path, error);
     return;
   }
-  auto table = Table::read(model_.tree().add_source(path, std::move(*text)), diagnostics());
+  const Source& source = model_.tree().add_source(path, std::move(*text));
+  auto table = is_json ? Table::read_json(source, diagnostics()) : Table::read_csv(source, diagnostics());
   if (!table) return;
   symbol.table = &model_.tables.emplace_back(std::move(*table));
   symbol.type = {Type::Kind::table, false, 0, Known::now, &symbol};

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "lang/data/csv.h"
 #include "lang/data/decimal.h"
+#include "lang/data/table.h"
 
 namespace hcsp::lang {
 

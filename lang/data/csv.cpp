@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lang/data/csv.h"
+#include "lang/data/table.h"
 
 #include <algorithm>
 
@@ -9,13 +9,12 @@ namespace {
 
 bool is_blank(char c) { return c == ' ' || c == '\t'; }
 bool ends_line(char c) { return c == '\n' || c == '\r'; }
-constexpr std::size_t kLongestCell = (std::size_t{1} << 30) - 1;
 
 }  // namespace
 
-class TableReader {
+class CsvTableReader {
  public:
-  TableReader(const Source& source, Diagnostics& diagnostics)
+  CsvTableReader(const Source& source, Diagnostics& diagnostics)
       : source_(source), text_(source.text()), diagnostics_(diagnostics), table_(source) {}
 
   std::optional<Table> run() {
@@ -78,7 +77,7 @@ class TableReader {
       while (at_ < text_.size() && text_[at_] != ',' && !ends_line(text_[at_])) ++at_;
       std::size_t end = at_;
       while (end > begin && is_blank(text_[end - 1])) --end;
-      set(cell, begin, end);
+      Table::set(cell, begin, end);
     }
     record_.push_back(cell);
     const bool more = at_ < text_.size() && text_[at_] == ',';
@@ -99,7 +98,7 @@ class TableReader {
         ++at_;
         continue;
       }
-      set(cell, begin, quote);
+      Table::set(cell, begin, quote);
       cell.quoted = 1;
       break;
     }
@@ -107,11 +106,6 @@ class TableReader {
     if (at_ == text_.size() || text_[at_] == ',' || ends_line(text_[at_])) return true;
     report(Code::broken_quotes, {at_, at_ + 1}, "is followed by more text");
     return false;
-  }
-
-  static void set(Table::Cell& cell, std::size_t begin, std::size_t end) {
-    cell.begin = static_cast<std::uint32_t>(begin);
-    cell.length = static_cast<std::uint32_t>(std::min(end - begin, kLongestCell)) & 0x3FFFFFFFU;
   }
 
   bool read_header() {
@@ -140,7 +134,7 @@ class TableReader {
       return false;
     }
     Table::Cell missing;
-    set(missing, record_span_.end, record_span_.end);
+    Table::set(missing, record_span_.end, record_span_.end);
     missing.missing = 1;
     record_.resize(columns, missing);
     table_.cells_.insert(table_.cells_.end(), record_.begin(), record_.end());
@@ -157,8 +151,8 @@ class TableReader {
   Span record_span_{0, 0};
 };
 
-std::optional<Table> Table::read(const Source& source, Diagnostics& diagnostics) {
-  return TableReader(source, diagnostics).run();
+std::optional<Table> Table::read_csv(const Source& source, Diagnostics& diagnostics) {
+  return CsvTableReader(source, diagnostics).run();
 }
 
 std::string Table::cell(std::size_t row, std::size_t column) const {

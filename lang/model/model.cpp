@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lang/model/model.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 namespace hcsp::lang {
@@ -32,6 +34,36 @@ const Expr& Model::unfold(const Expr& expr) const {
     at = let->value;
   }
   return *at;
+}
+
+namespace {
+
+// As a declaration writes it.
+std::string spelled(const Type& type) {
+  if (type.is(Type::Kind::boolean) && !type.is_array()) return type.tube ? "tube bool" : "bool";
+  std::string text = describe(type);
+  std::erase(text, '`');
+  return text;
+}
+
+}  // namespace
+
+std::string dump_types(const Model& model) {
+  std::string text;
+  for (const Symbol& symbol : model.symbols) {
+    if (symbol.as<ConstraintItem>() != nullptr) continue;
+    text += symbol.name.text;
+    if (const auto* function = symbol.as<FunctionItem>()) {
+      text += '(';
+      for (std::size_t i = 0; i < symbol.parameters.size(); ++i) {
+        text += i == 0 ? "" : ", ";
+        text += fmt::format("{} : {}", function->parameters[i].name.text, spelled(symbol.parameters[i]));
+      }
+      text += ')';
+    }
+    text += fmt::format(" : {}\n", spelled(symbol.type));
+  }
+  return text;
 }
 
 }  // namespace hcsp::lang

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "lang/data/column.h"
-#include "lang/data/csv.h"
+#include "lang/data/table.h"
 #include "lang/diagnostics.h"
 #include "lang/model/built_in.h"
 #include "lang/model/type.h"
@@ -56,6 +56,10 @@ bool require_index(const Type& type, int index, const SourceRange& range, Diagno
 bool is_whole_range(const Binding& binding);
 /// Whether all the names that an expression binds run over whole numbers.
 bool ranges_over_numbers(const Expr& expr);
+
+class Model;
+/// A line a name, in the order of declaration, with its type; of a function, those of its parameters too.
+std::string dump_types(const Model& model);
 
 class Model {
  public:

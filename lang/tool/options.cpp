@@ -18,7 +18,6 @@ namespace {
 // Options of the language's page that later versions bring.
 struct Later {
   std::string memory_limit, precision, checkpoint, resume;
-  bool format = false;
 };
 
 struct Written {
@@ -47,10 +46,11 @@ void declare(CLI::App& app, Options& options, Written& written, Later& later) {
   app.add_option("--memory-limit", later.memory_limit, "Not supported yet")->option_text("MB");
   app.add_option("--precision", later.precision, "Not supported yet")->option_text("P");
   app.add_flag("--check", options.check_only, "Read and check the model and its data, solve nothing");
-  app.add_flag("--format", later.format, "Not supported yet");
+  app.add_flag("--format", options.format,
+               "Print the model in the canonical layout; -o FILE.hcsp writes it, to the model itself too");
   app.add_option("--explain", options.explain, "Print the page of a diagnostic code, such as E101")
       ->option_text("CODE");
-  app.add_option("--dump", options.dump, "Print a phase: ast or graph (types is not supported yet)")
+  app.add_option("--dump", options.dump, "Print what a phase makes of the model: ast, types or graph")
       ->check(CLI::IsMember({"ast", "types", "graph"}))
       ->option_text("PHASE");
   app.add_option("--graph", options.graph, "Draw the contractor graph: .dot or .svg")->option_text("FILE");
@@ -93,13 +93,11 @@ bool has_ending(const std::string& path, std::string_view option,
 
 // What CLI11 cannot check.
 bool is_usable(const Options& options, const Later& later) {
-  const std::array<std::pair<bool, std::string_view>, 6> missing{
+  const std::array<std::pair<bool, std::string_view>, 4> missing{
       {{!later.memory_limit.empty(), "--memory-limit"},
        {!later.precision.empty(), "--precision"},
-       {later.format, "--format"},
        {!later.checkpoint.empty(), "--checkpoint"},
-       {!later.resume.empty(), "--resume"},
-       {options.dump == "types", "--dump types"}}};
+       {!later.resume.empty(), "--resume"}}};
   for (const auto& [asked, name] : missing) {
     if (!asked) continue;
     fmt::print(stderr, "hcsp-solve: {} is not supported yet\n", name);
@@ -110,7 +108,8 @@ bool is_usable(const Options& options, const Later& later) {
     return false;
   }
   const bool outputs =
-      std::all_of(options.outputs.begin(), options.outputs.end(), [](const std::string& path) {
+      std::all_of(options.outputs.begin(), options.outputs.end(), [&](const std::string& path) {
+        if (options.format) return has_ending(path, "-o", {".hcsp"});
         return has_ending(path, "-o", {".json", ".csv", ".svg", ".html"});
       });
   return outputs && (options.graph.empty() || has_ending(options.graph, "--graph", {".dot", ".svg"}));

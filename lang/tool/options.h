@@ -17,6 +17,7 @@ struct Options {
   unsigned threads = 1;
   double time_limit = 0.0;
   bool check_only = false;
+  bool format = false;
   bool quiet = false;
   std::string explain;
   std::string dump;

@@ -11,6 +11,7 @@
 #include <fstream>
 
 #include "lang/data/file.h"
+#include "lang/syntax/format.h"
 #include "lang/tool/summary.h"
 #include "solver/report/csv.h"
 #include "solver/report/graph.h"
@@ -121,12 +122,34 @@ int explain(const std::string& code) {
   return kFinished;
 }
 
+int format(const Options& options) {
+  std::string error;
+  auto text = lang::read_file(options.model, error);
+  if (!text) {
+    fmt::print(stderr, "hcsp-solve: cannot read {}: {}\n", options.model, error);
+    return kWrongInput;
+  }
+  lang::Diagnostics diagnostics;
+  const lang::Source source(options.model, std::move(*text));
+  const auto formatted = lang::format(source, diagnostics);
+  if (!formatted) {
+    fmt::print(stderr, "{}", diagnostics.text());
+    return kWrongInput;
+  }
+  if (options.outputs.empty()) fmt::print("{}", *formatted);
+  const bool written = std::all_of(options.outputs.begin(), options.outputs.end(),
+                                   [&](const std::string& path) { return write(path, *formatted); });
+  return written ? kFinished : kWrongInput;
+}
+
 }  // namespace
 
 int run(const Options& options) {
   if (!options.explain.empty()) return explain(options.explain);
+  if (options.format) return format(options);
   lang::Compilation compilation = lang::compile_file(options.model, options.compile);
   if (options.dump == "ast") fmt::print("{}", lang::dump(*compilation.tree));
+  if (options.dump == "types") fmt::print("{}", compilation.types);
   if (!compilation.model) {
     fmt::print(stderr, "{}", compilation.diagnostics.text());
     return kWrongInput;

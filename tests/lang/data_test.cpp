@@ -7,8 +7,8 @@
 #include <random>
 
 #include "lang/data/column.h"
-#include "lang/data/csv.h"
 #include "lang/data/decimal.h"
+#include "lang/data/table.h"
 
 namespace hcsp::lang {
 namespace {
@@ -73,7 +73,7 @@ struct Read {
 std::unique_ptr<Read> table_of(const std::string& text) {
   auto result = std::make_unique<Read>();
   result->source = std::make_unique<Source>("t.csv", text);
-  result->table = Table::read(*result->source, result->diagnostics);
+  result->table = Table::read_csv(*result->source, result->diagnostics);
   return result;
 }
 
