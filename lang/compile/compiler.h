@@ -126,6 +126,7 @@ class Compiler {
   Evaluator evaluator_;
   std::unordered_map<const Symbol*, TubePlan> plans_;
   std::unordered_map<VariableId, double> precisions_;  // of the sets
+  std::uint32_t alternatives_ = 0;                     // how many were stated, each within those around it
   bool at_every_instant_ = false;  // what is stated holds, or does not, at every instant on its own
   std::unordered_map<const Expr*, std::optional<Box>> domains_;  // as they were stated
   std::string constraint_;                                       // the name of the constraint at hand

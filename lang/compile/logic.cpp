@@ -8,6 +8,13 @@
 
 namespace hcsp::lang {
 
+namespace {
+
+// Lets in lets, each used twice, double at each level: a model must not be able to fill the memory.
+constexpr std::uint32_t kMostAlternatives = 20'000;
+
+}  // namespace
+
 bool Compiler::connects(const Expr& expr) const {
   switch (expr.kind) {
     case ExprKind::unary:
@@ -127,6 +134,11 @@ void Compiler::state_at_least(const Expr& expr, int count, std::vector<Alternati
   std::vector<std::function<void()>> stated;
   for (const Alternative& alternative : alternatives) {
     stated.emplace_back([this, &expr, &alternative] {
+      if (model_.diagnostics().any()) return;
+      if (++alternatives_ > kMostAlternatives) {
+        model_.diagnostics().report(Code::too_large, expr.range, kMostAlternatives);
+        return;
+      }
       if (!alternative.at.empty()) evaluator_.bind_numbers(expr, alternative.at);
       for (const Claim& claim : alternative.claims) state(*claim.relation, claim.wanted);
     });

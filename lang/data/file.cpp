@@ -19,6 +19,10 @@ std::optional<std::string> read_file(const std::string& path, std::string& error
     error = "it is a folder";
     return {};
   }
+  if (std::filesystem::is_character_file(path, status) || std::filesystem::is_block_file(path, status)) {
+    error = "it is a device";
+    return {};
+  }
   std::ifstream stream(path, std::ios::binary);
   if (!stream) {
     error = std::filesystem::exists(path, status) ? "it may not be read" : "no such file";

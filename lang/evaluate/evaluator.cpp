@@ -119,6 +119,13 @@ bool Evaluator::take_step(const Expr& expr) {
   return steps_ < kMostSteps;
 }
 
+bool Evaluator::take_steps(const Expr& expr, std::int64_t count) {
+  if (count < 0 || steps_ + static_cast<std::uint64_t>(count) < kMostSteps) return true;
+  if (steps_ < kMostSteps) model_.diagnostics().report(Code::too_large, expr.range, kMostSteps);
+  steps_ = kMostSteps;
+  return false;
+}
+
 std::optional<Number> Evaluator::number(const Expr& expr) {
   const Value found = value(expr);
   if (found.empty()) return {};

@@ -163,6 +163,8 @@ class Evaluator {
   /// The value, unless a component of it is a constant that does not exist (1/0).
   Value defined(const Expr& expr, Value value);
   bool take_step(const Expr& expr);
+  /// Whether so many steps are left, which the caller is going to take.
+  bool take_steps(const Expr& expr, std::int64_t count);
   bool has_value(const Expr& expr);
 
   Model& model_;

@@ -17,7 +17,7 @@ bool Evaluator::for_each(const Expr& expr, const std::function<bool(const std::v
     if (k == expr.bindings.size()) return body(at);
     const Expr& written = *expr.bindings[k].domain;
     const auto extent = range(written);
-    if (!extent) return false;
+    if (!extent || !take_steps(written, std::int64_t{extent->last} - extent->first)) return false;
     at.push_back(0);
     for (std::int64_t i = extent->first; i <= extent->last; ++i) {
       if (!take_step(written)) return false;

@@ -245,7 +245,14 @@ const auto expression_def = nested(chain)[([](auto& ctx) {
 })];
 
 const auto set_operator = [](auto& ctx) { _val(ctx).back().op = here(ctx) - 1; };
-const auto add_link = [](auto& ctx) { _val(ctx).push_back(std::move(_attr(ctx))); };
+// Operators of several levels make a long chain and no deep tree; a longer one fills the memory.
+constexpr std::size_t kLongestChain = 100 * kDeepestTree;
+const auto add_link = [](auto& ctx) {
+  _val(ctx).push_back(std::move(_attr(ctx)));
+  if (_val(ctx).size() <= kLongestChain) return;
+  state(ctx).error = SyntaxError{SyntaxError::Kind::too_deep, here(ctx) - 1, {}};
+  boost::throw_exception(x3::expectation_failure<const Token*>(here(ctx), "an expression"));
+};
 const auto binary_operator = token(plus) | token(minus) | token(star) | token(slash) | token(caret) |
                              token(equal) | token(less) | token(less_equal) | token(greater) |
                              token(greater_equal) | token(not_equal) | token(plus_minus) | token(range) |

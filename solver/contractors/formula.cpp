@@ -3,21 +3,23 @@
 
 #include <algorithm>
 #include <cmath>
+#include <unordered_set>
 
 #include "solver/contractors/in_at_least.h"
 #include "solver/expression/operators.h"
 
 namespace hcsp {
 
-Formula::Formula(const Dag& dag, NodeId relation, const Program& whole)
-    : Formula(make(dag, relation, true, whole)) {}
-
 namespace {
+
+// Relations that share parts may be far larger as formulas than as graphs. What is beyond this many atoms and
+// connectives is contracted by plain HC4-revise.
+constexpr std::size_t kLargestFormula = 10'000;
 
 // The relations of a count `k <= c1 + c2 + ...`; none where the node is no count.
 std::vector<NodeId> counted(const Dag& dag, NodeId sum) {
   std::vector<NodeId> open{sum}, relations;
-  while (!open.empty()) {
+  while (!open.empty() && relations.size() < kLargestFormula) {
     const DagNode& node = dag[open.back()];
     const NodeId id = open.back();
     open.pop_back();
@@ -29,68 +31,89 @@ std::vector<NodeId> counted(const Dag& dag, NodeId sum) {
       return {};
     }
   }
-  return relations;
+  return open.empty() ? relations : std::vector<NodeId>{};
 }
 
-}  // namespace
-
-// Negations are pushed down to the atoms: a connective is true of what its operands are false of.
-Formula Formula::make(const Dag& dag, NodeId id, bool wanted, const Program& whole) {
-  const DagNode& node = dag[id];
-  if (node.op == Op::logical_not) return make(dag, node.operands[0], !wanted, whole);
-  if (node.op == Op::logical_and || node.op == Op::logical_or) {
-    std::vector<NodeId> relations;
-    collect(dag, id, node.op, relations);
-    return count(dag, relations, node.op == Op::logical_and ? relations.size() : 1, wanted, whole);
-  }
-  if (node.op == Op::less_equal && dag[node.operands[0]].op == Op::constant) {
-    const std::vector<NodeId> relations = counted(dag, node.operands[1]);
-    const double least = dag[node.operands[0]].value.lo();
-    if (relations.size() > 1 && least >= 1 && least <= static_cast<double>(relations.size()))
-      return count(dag, relations, static_cast<std::size_t>(std::ceil(least)), wanted, whole);
-  }
-  Formula formula;
-  if (node.op == Op::if_then_else) {
-    formula.least_ = 1;
-    for (const bool taken : {true, false}) {
-      Formula& branch = formula.parts_.emplace_back(Formula());
-      branch.least_ = 2;
-      branch.parts_.push_back(make(dag, node.operands[0], taken, whole));
-      branch.parts_.push_back(make(dag, node.operands[taken ? 1 : 2], wanted, whole));
-    }
-    return formula;
-  }
-  formula.wanted_ = wanted;
-  formula.atom_ = std::make_unique<Atom>(Program(dag, {id}));
-  const std::vector<Input>& inputs = whole.inputs();
-  for (const Input& input : formula.atom_->program.inputs())
-    formula.atom_->places.push_back(
-        static_cast<std::size_t>(std::find(inputs.begin(), inputs.end(), input) - inputs.begin()));
-  return formula;
-}
-
-// The operands of a chain of one connective.
-void Formula::collect(const Dag& dag, NodeId node, Op connective, std::vector<NodeId>& parts) {
-  std::vector<NodeId> open{node};
+// The operands of a chain of one connective, each once.
+std::vector<NodeId> operands_of(const Dag& dag, NodeId node, Op connective) {
+  std::vector<NodeId> open{node}, parts;
+  std::unordered_set<NodeId> seen;
   while (!open.empty()) {
     const NodeId id = open.back();
     open.pop_back();
+    if (!seen.insert(id).second) continue;
     if (dag[id].op == connective) {
       open.insert(open.end(), {dag[id].operands[1], dag[id].operands[0]});
     } else {
       parts.push_back(id);
     }
   }
+  return parts;
 }
 
-// At least `least` of n relations hold, or not: then at least n - least + 1 of them fail.
-Formula Formula::count(const Dag& dag, const std::vector<NodeId>& relations, std::size_t least, bool wanted,
-                       const Program& whole) {
-  Formula formula;
-  formula.least_ = wanted ? least : relations.size() - least + 1;
-  for (const NodeId relation : relations) formula.parts_.push_back(make(dag, relation, wanted, whole));
-  return formula;
-}
+}  // namespace
+
+class Formula::Maker {
+ public:
+  Maker(const Dag& dag, const Program& whole) : dag_(dag), whole_(whole) {}
+
+  // Negations are pushed down to the atoms: a connective is true of what its operands are false of.
+  Formula make(NodeId id, bool wanted) {
+    const DagNode& node = dag_[id];
+    if (++size_ > kLargestFormula) return atom(id, wanted);
+    if (node.op == Op::logical_not) return make(node.operands[0], !wanted);
+    if (node.op == Op::logical_and || node.op == Op::logical_or) {
+      const std::vector<NodeId> relations = operands_of(dag_, id, node.op);
+      return count(relations, node.op == Op::logical_and ? relations.size() : 1, wanted);
+    }
+    if (node.op == Op::less_equal && dag_[node.operands[0]].op == Op::constant) {
+      const std::vector<NodeId> relations = counted(dag_, node.operands[1]);
+      const double least = dag_[node.operands[0]].value.lo();
+      if (relations.size() > 1 && least >= 1 && least <= static_cast<double>(relations.size()))
+        return count(relations, static_cast<std::size_t>(std::ceil(least)), wanted);
+    }
+    return node.op == Op::if_then_else ? choice(node, wanted) : atom(id, wanted);
+  }
+
+ private:
+  Formula choice(const DagNode& node, bool wanted) {
+    Formula formula;
+    formula.least_ = 1;
+    for (const bool taken : {true, false}) {
+      Formula& branch = formula.parts_.emplace_back(Formula());
+      branch.least_ = 2;
+      branch.parts_.push_back(make(node.operands[0], taken));
+      branch.parts_.push_back(make(node.operands[taken ? 1 : 2], wanted));
+    }
+    return formula;
+  }
+
+  // At least `least` of n relations hold, or not: then at least n - least + 1 of them fail.
+  Formula count(const std::vector<NodeId>& relations, std::size_t least, bool wanted) {
+    Formula formula;
+    formula.least_ = wanted ? least : relations.size() - least + 1;
+    for (const NodeId relation : relations) formula.parts_.push_back(make(relation, wanted));
+    return formula;
+  }
+
+  [[nodiscard]] Formula atom(NodeId id, bool wanted) const {
+    Formula formula;
+    formula.wanted_ = wanted;
+    formula.atom_ = std::make_unique<Atom>(Program(dag_, {id}));
+    const std::vector<Input>& inputs = whole_.inputs();
+    for (const Input& input : formula.atom_->program.inputs())
+      formula.atom_->places.push_back(
+          static_cast<std::size_t>(std::find(inputs.begin(), inputs.end(), input) - inputs.begin()));
+    return formula;
+  }
+
+  const Dag& dag_;
+  const Program& whole_;
+  std::size_t size_ = 0;
+};
+
+Formula::Formula(const Dag& dag, NodeId relation, const Program& whole)
+    : Formula(Maker(dag, whole).make(relation, true)) {}
 
 bool Formula::has_alternatives() const {
   return least_ < parts_.size() || std::any_of(parts_.begin(), parts_.end(),

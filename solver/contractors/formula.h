@@ -28,11 +28,8 @@ class Formula {
     Evaluation evaluation;
     std::vector<std::size_t> places;  // of its inputs among those of the whole
   };
+  class Maker;
   Formula() = default;
-  static Formula make(const Dag& dag, NodeId node, bool wanted, const Program& whole);
-  static void collect(const Dag& dag, NodeId node, Op connective, std::vector<NodeId>& parts);
-  static Formula count(const Dag& dag, const std::vector<NodeId>& relations, std::size_t least, bool wanted,
-                       const Program& whole);
   bool contract_atom(std::vector<Interval>& inputs);
   bool contract_parts(std::vector<Interval>& inputs);
 
