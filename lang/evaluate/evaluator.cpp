@@ -32,6 +32,18 @@ hcsp::Expr compare(Operator op, const hcsp::Expr& a, const hcsp::Expr& b) {
   }
 }
 
+/// a < b or a > b of whole numbers: they differ by 1 at least.
+hcsp::Expr next_to(Operator op, const hcsp::Expr& a, const hcsp::Expr& b) {
+  const Interval one(1.0);
+  return op == Operator::less ? a + one <= b : b + one <= a;
+}
+
+/// Whether a term of this type is whole whatever the unknowns are.
+bool is_whole(const Type& type, const Term& term) {
+  const auto* number = std::get_if<Number>(&term);
+  return type.whole || (number != nullptr && number->exact && number->exact->as_int());
+}
+
 /// How a comparison of constants ends, where their enclosures tell.
 std::optional<bool> known_relation(Operator op, const Term& a, const Term& b) {
   const auto* x = std::get_if<Number>(&a);
@@ -512,7 +524,11 @@ Value Evaluator::relation(const Expr& expr, const Value& a, const Value& b) {
       if (*known == any) return {boolean(any)};
       continue;
     }
-    const hcsp::Expr one = compare(expr.op, expression(a[i]), expression(b[i]));
+    const bool strict = expr.op == Operator::less || expr.op == Operator::greater;
+    const bool whole_sides =
+        is_whole(model_.type(*expr.operands[0]), a[i]) && is_whole(model_.type(*expr.operands[1]), b[i]);
+    const hcsp::Expr one = strict && whole_sides ? next_to(expr.op, expression(a[i]), expression(b[i]))
+                                                 : compare(expr.op, expression(a[i]), expression(b[i]));
     all = !all ? one : any ? *all || one : *all && one;
   }
   return {all ? Term(*all) : boolean(!any)};

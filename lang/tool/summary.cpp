@@ -57,8 +57,23 @@ std::string line(const Interval& interval) {
   return fmt::format("[{}, {}]", bound(interval.lo()), bound(interval.hi()));
 }
 std::string line(const Box& box) {
+  constexpr Eigen::Index kShown = 12;
   std::string text;
-  for (Eigen::Index i = 0; i < box.dim(); ++i) text += (i == 0 ? "(" : ", ") + line(box[i]);
+  for (Eigen::Index i = 0; i < std::min(box.dim(), kShown); ++i) text += (i == 0 ? "(" : ", ") + line(box[i]);
+  if (box.dim() > kShown) text += fmt::format(", ... {} components", box.dim());
+  return text + ")";
+}
+std::string truth(const Interval& value) {
+  if (value.is_point()) return value.lo() == 0 ? "false" : "true";
+  return "true or false";
+}
+std::string matrix(const Box& box, std::size_t columns) {
+  std::string text;
+  for (Eigen::Index first = 0; first < box.dim(); first += static_cast<Eigen::Index>(columns)) {
+    Box row(static_cast<Eigen::Index>(columns));
+    for (Eigen::Index i = 0; i < row.dim(); ++i) row[i] = box[first + i];
+    text += (first == 0 ? "(" : ", ") + line(row);
+  }
   return text + ")";
 }
 std::string line(const SetInterval& set) {
@@ -87,6 +102,15 @@ void explain(const Explanation& why, std::string& text) {
   if (why.support.size() > kShown) text += fmt::format("  and {} more\n", why.support.size() - kShown);
 }
 
+std::string line(const ResultVariable& variable) {
+  if (variable.is_empty()) return "empty";
+  const auto* real = std::get_if<Interval>(&variable.domain);
+  if (real != nullptr && variable.shape.scalar == Shape::Scalar::boolean) return truth(*real);
+  const auto* box = std::get_if<Box>(&variable.domain);
+  if (box != nullptr && variable.shape.columns != 0) return matrix(*box, variable.shape.columns);
+  return std::visit([](const auto& domain) { return line(domain); }, variable.domain);
+}
+
 }  // namespace
 
 std::string summary(const Result& result, const std::vector<std::string>& shown) {
@@ -98,11 +122,8 @@ std::string summary(const Result& result, const std::vector<std::string>& shown)
   const std::vector<const ResultVariable*> listed = select(result.variables, shown);
   std::size_t longest = 0;
   for (const ResultVariable* variable : listed) longest = std::max(longest, variable->name.size());
-  for (const ResultVariable* variable : listed) {
-    const std::string domain =
-        variable->is_empty() ? "empty" : std::visit([](const auto& d) { return line(d); }, variable->domain);
-    text += fmt::format("  {:<{}}  {}\n", variable->name, longest, domain);
-  }
+  for (const ResultVariable* variable : listed)
+    text += fmt::format("  {:<{}}  {}\n", variable->name, longest, line(*variable));
   return text;
 }
 

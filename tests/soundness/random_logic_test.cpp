@@ -82,6 +82,33 @@ TEST(RandomLogic, AlternativesOverTime) {
   EXPECT_GT(tried, instances(500));
 }
 
+// A Boolean that is told to be the truth of a relation: it keeps the truth that a solution gives it.
+TEST(RandomLogic, NoFalseEntailment) {
+  int decided = 0;
+  for (int seed = 1; seed <= instances(4000); ++seed) {
+    SCOPED_TRACE(seed);
+    Random random(static_cast<std::uint64_t>(seed) + 600000);
+    const double s[2] = {some_number(random), some_number(random)};
+    Problem problem("entailment");
+    const auto x = problem.vector("x", Box{around(random, s[0]), around(random, s[1])});
+    const auto b = problem.boolean("b");
+    RandomRelations make(static_cast<std::uint64_t>(seed) + 5, problem(x), {});
+    const Relation relation =
+        random.chance(0.3)
+            ? count(random.integer(1, 3), {make.relation(1), make.relation(2), make.relation(1)})
+            : make.relation(3);
+    const Truth truth = relation.at({{s[0], s[1]}, {}});
+    if (truth == Truth::unsure) continue;
+    const Expr is_b = problem(b);
+    problem.constrain("c", (is_b && relation.expression) || (!is_b && !relation.expression));
+    const Result result = propagate(problem);
+    const Interval& left = std::get<Interval>(result["b"]);
+    ASSERT_TRUE(left.contains(truth == Truth::yes ? 1.0 : 0.0)) << to_string(left);
+    decided += left.is_point() ? 1 : 0;
+  }
+  EXPECT_GT(decided, instances(200));
+}
+
 // Sets that are zones of a vector, and what is made of them, also on a finer grid.
 TEST(RandomLogic, SetAlgebra) {
   for (int seed = 1; seed <= instances(120); ++seed) {
