@@ -233,8 +233,10 @@ Type Checker::check_interval(const Expr& expr) {
 
 Type Checker::check_conditional(const Expr& expr) {
   // Of a choice between numbers the condition is taken at one instant; which it is takes a look at them.
+  const std::uint32_t instants_before = instants_to_find_;
   const Type then = check(*expr.operands[1]);
   const Type otherwise = check(*expr.operands[2]);
+  const bool at_instants = instants_to_find_ != instants_before;
   const bool pointwise = std::exchange(pointwise_, pointwise_ || !then.is(Type::Kind::boolean));
   const Type condition = check(*expr.operands[0]);
   pointwise_ = pointwise;
@@ -258,6 +260,9 @@ Type Checker::check_conditional(const Expr& expr) {
   type.known = std::min(type.known, condition.known);
   if (type.is(Type::Kind::boolean)) {
     lift(expr, type, false);
+  } else if (at_instants) {
+    // What is not chosen need not exist, but a tube at an instant to be found is stated to.
+    return not_supported(expr.range, "a choice between tubes at instants to be found");
   } else if (model_.is_stated(*expr.operands[0])) {
     return not_supported(expr.operands[0]->range, "this relation as the condition of a number");
   }

@@ -75,6 +75,7 @@ class Compiler {
     std::vector<Claim> claims;
     std::vector<int> at = {};
   };
+  void state_failure_at_instants(const Expr& expr);
   void state_logic(const Expr& expr, bool wanted);
   void state_quantified(const Expr& expr, bool wanted);
   void state_for_each(const Expr& expr, bool wanted);

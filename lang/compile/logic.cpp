@@ -55,7 +55,32 @@ void Compiler::state(const Expr& written, bool wanted) {
     if (!wanted) not_supported(expr.range, "that this relation does not hold");
     return;
   }
-  state_relation(expr, wanted);
+  if (wanted) return state_relation(expr, true);
+  state_failure_at_instants(expr);
+}
+
+// A relation between reals at instants to be found does not hold, or there is no such instant.
+void Compiler::state_failure_at_instants(const Expr& expr) {
+  const TimeLine& line = *problem_->time_line();
+  std::vector<hcsp::Expr> instants;
+  const auto fails = [&] {
+    evaluator_.take_instants_to_find();
+    evaluator_.take_integrals();
+    state_relation(expr, false);
+    instants = evaluator_.take_instants_to_find();
+    // The integrand may be undefined somewhere, and the relation fail for that.
+    if (evaluator_.take_integrals())
+      not_supported(expr.range, "that a relation of an integral does not hold");
+  };
+  const auto is_off_the_line = [&] {
+    std::optional<hcsp::Expr> any;
+    for (const hcsp::Expr& s : instants) {
+      const hcsp::Expr one = s < Interval(line.start()) || s > Interval(line.end());
+      any = any ? *any || one : one;
+    }
+    state_truth(any ? Term(*any) : boolean(false));
+  };
+  guarded(expr.range, [&] { problem_->constrain_at_least(next_name(), 1, {fails, is_off_the_line}); });
 }
 
 void Compiler::state_logic(const Expr& expr, bool wanted) {

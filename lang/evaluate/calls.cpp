@@ -52,7 +52,10 @@ Value Evaluator::at_instant(const Expr& expr) {
 Instant Evaluator::instant_of(const Expr& expr) {
   const Value written = value(expr);
   if (written.empty()) return {};
-  if (const auto* found = std::get_if<hcsp::Expr>(&written.front())) return *found;
+  if (const auto* found = std::get_if<hcsp::Expr>(&written.front())) {
+    instants_to_find_.push_back(*found);
+    return *found;
+  }
   return known_instant(expr, std::get<Number>(written.front()));
 }
 
@@ -67,6 +70,7 @@ Instant Evaluator::delayed(const Expr& instant) {
 
 // From the start where that is known, to the end; else backward from the end, or from the time line's start.
 Value Evaluator::integral(const Expr& expr) {
+  takes_integrals_ = true;
   const Instant from = instant_of(*expr.operands[2]), to = instant_of(*expr.operands[3]);
   Value integrand;
   at({}, [&] { integrand = value(*expr.operands[1]); });

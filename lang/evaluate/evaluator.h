@@ -90,6 +90,10 @@ class Evaluator {
   }
   /// Whether the value of an expression varies with the time at hand.
   [[nodiscard]] bool varies(const Expr& expr) const { return model_.type(expr).tube && moves_with_time(); }
+  /// Whether an integral was evaluated since the last call.
+  bool take_integrals() { return std::exchange(takes_integrals_, false); }
+  /// The instants to be found that tubes were taken at since the last call.
+  std::vector<hcsp::Expr> take_instants_to_find() { return std::exchange(instants_to_find_, {}); }
   /// Known instants that tubes were taken at and that are none of the time line, but lie on it.
   [[nodiscard]] const std::vector<double>& missing_instants() const { return missing_instants_; }
   /// Binds the point of a set builder, or of a minimum over a set.
@@ -179,6 +183,8 @@ class Evaluator {
 
   Instant instant_;
   std::vector<double> missing_instants_;
+  std::vector<hcsp::Expr> instants_to_find_;
+  bool takes_integrals_ = false;
   std::map<DefinitionKey, Value> definitions_;
   std::map<std::pair<const Table*, std::size_t>, std::optional<Column>> converted_;
   std::uint64_t steps_ = 0;
