@@ -51,7 +51,8 @@ std::string line(const Tube& tube) {
 }
 
 std::string bound(double value) {
-  return std::isinf(value) ? (value > 0 ? "oo" : "-oo") : fmt::format("{}", value);
+  if (std::isinf(value)) return value > 0 ? "oo" : "-oo";
+  return fmt::format("{}", value + 0.0);  // no -0
 }
 std::string line(const Interval& interval) {
   return fmt::format("[{}, {}]", bound(interval.lo()), bound(interval.hi()));

@@ -115,6 +115,29 @@ bool check_line(const Result& result, const std::string& line) {
   return true;
 }
 
+// Contractors are inclusion-isotone: the fixed point is the same, bit for bit, in whatever order they run.
+TEST(Solutions, AreTheSameInEveryOrder) {
+  for (const auto& path : models_in(kLangTests / "good")) {
+    SCOPED_TRACE(path.filename().string());
+    const std::string text = read_text(path);
+    Compilation compilation = compile_as("good/" + path.filename().string(), text, options_in(text));
+    ASSERT_TRUE(compilation.model.has_value());
+    PropagationOptions options;
+    const Result declared = compilation.model->problem->propagate(options);
+    for (std::uint64_t seed = 0; seed < 4; ++seed) {
+      options.order = seed == 0 ? Order::reversed : Order::shuffled;
+      options.seed = seed;
+      const Result other = compilation.model->problem->propagate(options);
+      ASSERT_EQ(other.status, declared.status);
+      if (declared.status == Status::infeasible) continue;
+      for (std::size_t v = 0; v < declared.variables.size(); ++v) {
+        EXPECT_TRUE(other.variables[v].domain == declared.variables[v].domain)
+            << declared.variables[v].name << ", order " << seed;
+      }
+    }
+  }
+}
+
 TEST(Solutions, AreInTheAnswersOfGoodModels) {
   std::size_t checked = 0;
   for (const auto& path : models_in(kLangTests / "good")) {
