@@ -33,9 +33,10 @@ struct Problem::Impl {
   std::shared_ptr<Motions> motions = std::make_shared<Motions>();
   std::map<VariableId, std::vector<Reading>> readings;
   std::map<VariableId, Shape> shapes;  // where they differ from the default
+  std::map<VariableId, VectorGroup> vectors;
   bool fast_paths = true;
   std::vector<std::unique_ptr<Contractor>>* alternative = nullptr;  // the one being stated
-  std::map<std::pair<VariableId, NodeId>, VariableId> values;       // of tubes at instants to be found
+  std::map<std::pair<VariableId, NodeId>, VectorVariable> values;   // of tubes at instants to be found
   std::map<std::pair<std::vector<NodeId>, double>, VariableId> integrals;
   std::map<std::pair<VariableId, double>, VariableId> delayed;       // tubes, by the delay
   std::map<std::pair<VariableId, double>, SetVariable> refinements;  // by the finer grid's precision
@@ -48,6 +49,26 @@ struct Problem::Impl {
     const VariableId id = graph.add_variable(variable, std::move(domain), hidden);
     kinds.push_back(kind);
     return id;
+  }
+
+  VectorVariable add_vector(const std::string& vector, const Box& domain, bool hidden = false) {
+    const auto dim = static_cast<std::size_t>(domain.dim());
+    require(dim > 0, "Problem: the vector {} has no components", vector);
+    const auto first = static_cast<VariableId>(graph.variables().size());
+    for (Eigen::Index i = 0; i < domain.dim(); ++i)
+      add(fmt::format("{}[{}]", vector, i + 1), domain[i], DomainKind::real, hidden);
+    vectors.emplace(first, VectorGroup{vector, dim});
+    return {first, dim};
+  }
+
+  VectorExpr components(VectorVariable vector) {
+    VectorExpr all;
+    for (std::size_t i = 0; i < vector.dim; ++i) all.push_back(component(vector, i));
+    return all;
+  }
+
+  Expr component(VectorVariable vector, std::size_t i) {
+    return input(Input::Kind::real, vector.id + static_cast<VariableId>(i), 0);
   }
 
   Expr input(Input::Kind kind, VariableId variable, std::size_t component, std::size_t gate = 0) {
@@ -163,8 +184,7 @@ BooleanVariable Problem::boolean(std::string name) {
 }
 
 VectorVariable Problem::vector(std::string name, const Box& domain) {
-  require(domain.dim() > 0, "Problem: the vector {} has no components", name);
-  return {impl_->add(name, domain, DomainKind::vector), static_cast<std::size_t>(domain.dim())};
+  return impl_->add_vector(name, domain);
 }
 
 void Problem::set_time_line(TimeLine line) {
@@ -215,7 +235,7 @@ void Problem::place_in_array(VariableId element, std::string array, std::vector<
 
 Expr Problem::component(VectorVariable x, std::size_t i) {
   require(i < x.dim, "Problem: component {} of {}", i + 1, x.dim);
-  return impl_->input(Input::Kind::vector, x.id, i);
+  return impl_->component(x, i);
 }
 
 Expr Problem::constant(const Interval& value) { return {impl_->dag, impl_->dag.constant(value)}; }
@@ -225,7 +245,7 @@ Expr Problem::operator()(IntegerVariable x) { return impl_->input(Input::Kind::r
 Expr Problem::operator()(BooleanVariable x) {
   return impl_->input(Input::Kind::real, x.id, 0) > Interval(0.5);
 }
-VectorExpr Problem::operator()(VectorVariable x) { return impl_->inputs(Input::Kind::vector, x.id, x.dim); }
+VectorExpr Problem::operator()(VectorVariable x) { return impl_->components(x); }
 VectorExpr Problem::operator()(TubeVariable x) { return impl_->inputs(Input::Kind::tube, x.id, x.dim); }
 
 VectorExpr Problem::at(TubeVariable x, double t) {
@@ -244,12 +264,12 @@ VectorExpr Problem::at(TubeVariable x, Expr instant) {
             "Problem: an instant that varies with time");
   }
   const auto known = impl_->values.find({x.id, node});
-  if (known != impl_->values.end()) return impl_->inputs(Input::Kind::vector, known->second, x.dim);
+  if (known != impl_->values.end()) return impl_->components(known->second);
   const std::string name = fmt::format("{} at instant {}", impl_->graph.variable(x.id).name(), node);
-  const VariableId value =
-      impl_->add(impl_->free_name(name), Box(static_cast<Eigen::Index>(x.dim)), DomainKind::vector, true);
+  const VectorVariable value =
+      impl_->add_vector(impl_->free_name(name), Box(static_cast<Eigen::Index>(x.dim)), true);
   impl_->values.emplace(std::pair(x.id, node), value);
-  const VectorExpr found = impl_->inputs(Input::Kind::vector, value, x.dim);
+  const VectorExpr found = impl_->components(value);
   constrain_sometime(name, time() == instant && found == (*this)(x));
   return found;
 }
@@ -424,8 +444,9 @@ const std::string& Problem::name() const { return impl_->name; }
 const ContractorGraph& Problem::graph() const { return impl_->graph; }
 
 Result Problem::propagate(const PropagationOptions& options) {
-  return run_problem({impl_->name, impl_->graph, impl_->kinds, impl_->line, impl_->readings, impl_->shapes},
-                     options);
+  return run_problem(
+      {impl_->name, impl_->graph, impl_->kinds, impl_->line, impl_->readings, impl_->shapes, impl_->vectors},
+      options);
 }
 
 }  // namespace hcsp

@@ -14,8 +14,6 @@ Domain domain_of(const ProblemView& problem, const Propagation& run, VariableId 
   switch (problem.kinds[id]) {
     case DomainKind::real:
       return run.domain<Interval>(id);
-    case DomainKind::vector:
-      return run.domain<Box>(id);
     case DomainKind::tube:
       return run.domain<Tube>(id);
     case DomainKind::set:
@@ -24,16 +22,39 @@ Domain domain_of(const ProblemView& problem, const Propagation& run, VariableId 
   return Interval::empty();
 }
 
+Box box_of(const Propagation& run, VariableId first, std::size_t dim) {
+  Box box(static_cast<Eigen::Index>(dim));
+  for (Eigen::Index i = 0; i < box.dim(); ++i)
+    box[i] = run.domain<Interval>(first + static_cast<VariableId>(i));
+  return box;
+}
+
 std::vector<ResultVariable> declared_domains(const ProblemView& problem, const Propagation& run) {
   std::vector<ResultVariable> variables;
-  for (VariableId id = 0; id < problem.kinds.size(); ++id) {
+  for (VariableId id = 0; id < problem.kinds.size();) {
     const auto& variable = problem.graph.variable(id);
-    if (variable.hidden()) continue;
-    const auto found = problem.shapes.find(id);
-    variables.push_back({variable.name(), domain_of(problem, run, id),
-                         found == problem.shapes.end() ? Shape{} : found->second});
+    const auto vector = problem.vectors.find(id);
+    const bool is_vector = vector != problem.vectors.end();
+    if (!variable.hidden()) {
+      const auto shape = problem.shapes.find(id);
+      variables.push_back(
+          {is_vector ? vector->second.name : variable.name(),
+           is_vector ? Domain(box_of(run, id, vector->second.dim)) : domain_of(problem, run, id),
+           shape == problem.shapes.end() ? Shape{} : shape->second});
+    }
+    id += static_cast<VariableId>(is_vector ? vector->second.dim : 1);
   }
   return variables;
+}
+
+// What people call a variable: a component by its vector's name.
+const std::string& name_of(const ProblemView& problem, VariableId id) {
+  auto after = problem.vectors.upper_bound(id);
+  if (after != problem.vectors.begin()) {
+    const auto& [first, vector] = *--after;
+    if (id < first + vector.dim) return vector.name;
+  }
+  return problem.graph.variable(id).name();
 }
 
 std::vector<Interval> components_at(const Tube& tube, std::size_t item) {
@@ -126,7 +147,7 @@ std::optional<Failure> failure_with(const ProblemView& problem, const Propagatio
 void tell_failure(const ProblemView& problem, const Failure& failure, Explanation& explanation) {
   if (failure.contractor)
     explanation.constraint = problem.graph.contractors()[*failure.contractor]->constraint();
-  explanation.variable = problem.graph.variable(failure.variable).name();
+  explanation.variable = name_of(problem, failure.variable);
   explanation.time = failure.time;
 }
 

@@ -12,7 +12,14 @@
 namespace hcsp {
 
 /// Which of the library's domains a variable has.
-enum class DomainKind : std::uint8_t { real, vector, tube, set };
+enum class DomainKind : std::uint8_t { real, tube, set };
+
+/// A vector unknown: so many real variables, one after another. A contractor of some components is woken by
+/// those alone.
+struct VectorGroup {
+  std::string name;
+  std::size_t dim;
+};
 
 struct ProblemView {
   const std::string& name;
@@ -21,6 +28,7 @@ struct ProblemView {
   const std::shared_ptr<const TimeLine>& line;
   const std::map<VariableId, std::vector<Reading>>& readings;
   const std::map<VariableId, Shape>& shapes;
+  const std::map<VariableId, VectorGroup>& vectors;  // by their first components
 };
 
 Result run_problem(const ProblemView& problem, const PropagationOptions& options);

@@ -38,9 +38,6 @@ void Inputs::open(Access& access) {
       case Input::Kind::real:
         place.real = &access.edit<Interval>(variables_[v]);
         break;
-      case Input::Kind::vector:
-        place.vector = &access.edit<Box>(variables_[v]);
-        break;
       default:
         place.tube = &access.edit<Tube>(variables_[v]);
         break;
@@ -54,8 +51,6 @@ ItemSet Inputs::changed(const Access& access) const {
   for (std::size_t v = 0; v < places_.size(); ++v) {
     if (places_[v].kind == Input::Kind::real)
       everywhere = everywhere || !access.delta<Interval>(variables_[v]).is_none();
-    if (places_[v].kind == Input::Kind::vector)
-      everywhere = everywhere || !access.delta<Box>(variables_[v]).is_none();
   }
   for (std::size_t i = 0; i < inputs_.size(); ++i) {
     const Input& input = inputs_[i];
@@ -78,8 +73,6 @@ Interval Inputs::value(std::uint32_t i, std::size_t item) const {
   switch (input.kind) {
     case Input::Kind::real:
       return *places_[place_of_[i]].real;
-    case Input::Kind::vector:
-      return (*places_[place_of_[i]].vector)[input.component];
     case Input::Kind::time:
       return context_.line->span(item);
     case Input::Kind::point:
@@ -108,9 +101,8 @@ bool Inputs::narrow(std::uint32_t i, std::size_t item, const Interval& bound) {
     if (place.tube->is_empty() && !place.emptied_at) place.emptied_at = at;
     return !place.tube->is_empty();
   }
-  Interval& target = place.kind == Input::Kind::real ? *place.real : (*place.vector)[input.component];
-  place.changed = contract(target, bound).changed || place.changed;
-  return !target.is_empty();
+  place.changed = contract(*place.real, bound).changed || place.changed;
+  return !place.real->is_empty();
 }
 
 bool Inputs::carry(std::size_t item, Direction sweep) {
@@ -145,9 +137,6 @@ void Inputs::report(Access& access) {
     switch (place.kind) {
       case Input::Kind::real:
         access.report<Interval>(variables_[v], {place.changed});
-        break;
-      case Input::Kind::vector:
-        access.report<Box>(variables_[v], {place.changed});
         break;
       default:
         access.report<Tube>(variables_[v], place.items,

@@ -7,7 +7,6 @@
 #include <set>
 #include <vector>
 
-#include "domains/box.h"
 #include "domains/tube.h"
 #include "solver/contractors/motion.h"
 #include "solver/engine/propagation.h"
@@ -71,9 +70,8 @@ class Inputs {
   struct Place {  // of one variable
     Input::Kind kind = Input::Kind::real;
     Interval* real = nullptr;
-    Box* vector = nullptr;
     Tube* tube = nullptr;
-    bool changed = false;  // a real or vector
+    bool changed = false;  // a real
     ItemSet items;         // of a tube
     std::optional<std::size_t> emptied_at;
   };

@@ -61,12 +61,11 @@ enum class Op : std::uint8_t {
 /// What a leaf stands for: one scalar that the domains of the variables give.
 struct Input {
   enum class Kind : std::uint8_t {
-    real,    ///< a real variable
-    vector,  ///< a component of a vector variable
-    tube,    ///< a component of a tube at the item at hand
-    gate,    ///< a component of a tube at a fixed gate
-    time,    ///< the identity tube t at the item at hand
-    point,   ///< a component of the bound point a of { a | ... }
+    real,   ///< a real variable, or a component of a vector
+    tube,   ///< a component of a tube at the item at hand
+    gate,   ///< a component of a tube at a fixed gate
+    time,   ///< the identity tube t at the item at hand
+    point,  ///< a component of the bound point a of { a | ... }
   };
   Kind kind = Kind::real;
   VariableId variable = 0;
