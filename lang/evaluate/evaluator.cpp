@@ -32,9 +32,10 @@ hcsp::Expr compare(Operator op, const hcsp::Expr& a, const hcsp::Expr& b) {
   }
 }
 
-/// a < b or a > b of whole numbers: they differ by 1 at least.
-hcsp::Expr next_to(Operator op, const hcsp::Expr& a, const hcsp::Expr& b) {
+/// a < b, a > b or a != b of whole numbers: they differ by 1 at least.
+hcsp::Expr apart(Operator op, const hcsp::Expr& a, const hcsp::Expr& b) {
   const Interval one(1.0);
+  if (op == Operator::not_equal) return a + one <= b || b + one <= a;
   return op == Operator::less ? a + one <= b : b + one <= a;
 }
 
@@ -524,10 +525,11 @@ Value Evaluator::relation(const Expr& expr, const Value& a, const Value& b) {
       if (*known == any) return {boolean(any)};
       continue;
     }
-    const bool strict = expr.op == Operator::less || expr.op == Operator::greater;
-    const bool whole_sides =
-        is_whole(model_.type(*expr.operands[0]), a[i]) && is_whole(model_.type(*expr.operands[1]), b[i]);
-    const hcsp::Expr one = strict && whole_sides ? next_to(expr.op, expression(a[i]), expression(b[i]))
+    const bool strict =
+        expr.op == Operator::less || expr.op == Operator::greater || expr.op == Operator::not_equal;
+    const bool whole_sides = is_whole(model_.type(*expr.operands[0]), a[i]) &&
+                             is_whole(model_.type(*expr.operands[1]), b[i]);
+    const hcsp::Expr one = strict && whole_sides ? apart(expr.op, expression(a[i]), expression(b[i]))
                                                  : compare(expr.op, expression(a[i]), expression(b[i]));
     all = !all ? one : any ? *all || one : *all && one;
   }
