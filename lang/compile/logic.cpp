@@ -185,8 +185,9 @@ std::optional<Window> Compiler::window_of(const Expr& expr) {
 
 void Compiler::state_over_time(const Expr& expr, bool wanted) {
   const Expr& body = model_.unfold(*expr.operands[0]);
+  const std::size_t before = model_.diagnostics().count();
   const std::optional<Window> window = window_of(expr);
-  if (model_.diagnostics().any()) return;
+  if (model_.diagnostics().count() != before) return;
   const bool always = (expr.quantifier == Quantifier::forall) == wanted;
   if (model_.is_stated(body)) {
     if (!always) return state_at_an_instant(body, wanted, window);

@@ -51,7 +51,8 @@ void Compiler::state_set_equality(const Expr& a, const Expr& b, bool wanted) {
 void Compiler::state_subset(const Expr& a, const Expr& b, bool wanted) {
   const auto grid = grid_of(a, b);
   if (!grid) return;
-  if (!wanted && (evaluator_.varies(a) || evaluator_.varies(b)))
+  const bool varies = evaluator_.varies(a) || evaluator_.varies(b);
+  if ((varies && !wanted) || (evaluator_.varies(a) && evaluator_.varies(b)))
     return not_supported(a.range, "this relation between sets that vary with time");
   guarded(a.range, [&] {
     const auto part = set_term(a, *grid), whole = part ? set_term(b, *grid, true) : std::nullopt;
@@ -65,18 +66,15 @@ void Compiler::state_subset(const Expr& a, const Expr& b, bool wanted) {
 }
 
 void Compiler::state_disjoint(const Expr& a, const Expr& b, bool wanted) {
+  if (!wanted) return state_meets(a, b, true);
   const auto grid = grid_of(a, b);
   if (!grid) return;
-  const bool varies = evaluator_.varies(a) || evaluator_.varies(b);
-  if (!wanted && varies) return state_meets(a, b, true);
   if (evaluator_.varies(a) && evaluator_.varies(b))
-    return not_supported(a.range, "two sets that vary with time");
+    return not_supported(a.range, "this relation between sets that vary with time");
   guarded(a.range, [&] {
     const auto one = set_term(a, *grid), other = one ? set_term(b, *grid) : std::nullopt;
     if (!other) return;
-    if (!wanted) {
-      problem_->constrain_common_point(next_name(), *one, *other);
-    } else if (one->complemented || other->complemented) {
+    if (one->complemented || other->complemented) {
       problem_->constrain_subset(next_name(), *one, complement(*other));
     } else {
       problem_->constrain_disjoint(next_name(), {one->set, grid->dim}, {other->set, grid->dim});
@@ -84,20 +82,24 @@ void Compiler::state_disjoint(const Expr& a, const Expr& b, bool wanted) {
   });
 }
 
+// Of a set builder the unknowns in its relation are contracted too.
 void Compiler::state_meets(const Expr& a, const Expr& b, bool wanted) {
   if (!wanted) return state_disjoint(a, b, true);
   const auto grid = grid_of(a, b);
   if (!grid) return;
   if (evaluator_.varies(a) && evaluator_.varies(b))
-    return not_supported(a.range, "two sets that vary with time");
+    return not_supported(a.range, "this relation between sets that vary with time");
+  const auto is_builder = [&](const Expr& set) { return model_.unfold(set).kind == ExprKind::builder; };
   guarded(a.range, [&] {
-    const bool zone_first = is_zone(a) && !evaluator_.varies(b);
-    if (zone_first || is_zone(b)) {
+    const bool zone_first = is_builder(a) && !evaluator_.varies(b);
+    if (zone_first || is_builder(b)) {
       const auto builder = zone_of(zone_first ? a : b);
       const auto set = builder ? set_variable(zone_first ? b : a, *grid) : std::nullopt;
       if (set) problem_->constrain_meets(next_name(), *builder, *set);
       return;
     }
+    if (evaluator_.varies(a) || evaluator_.varies(b))
+      return not_supported(a.range, "this relation between sets that vary with time");
     const auto one = set_term(a, *grid), other = one ? set_term(b, *grid) : std::nullopt;
     if (other) problem_->constrain_common_point(next_name(), *one, *other);
   });
@@ -143,9 +145,10 @@ void Compiler::collect_sets(const Expr& written, std::vector<NamedSet>& found) {
 // The finest of the sets that two expressions name; all are on its grid, or on coarser ones that it refines.
 std::optional<SetVariable> Compiler::grid_of(const Expr& a, const Expr& b) {
   std::vector<NamedSet> named;
+  const std::size_t before = model_.diagnostics().count();
   collect_sets(a, named);
   if (&a != &b) collect_sets(b, named);
-  if (model_.diagnostics().any()) return {};
+  if (model_.diagnostics().count() != before) return {};
   const auto precision = [&](const NamedSet& one) { return precisions_.at(one.set.id); };
   const auto finest = std::min_element(named.begin(), named.end(), [&](const auto& one, const auto& other) {
     return precision(one) < precision(other);
@@ -167,11 +170,12 @@ std::optional<SetVariable> Compiler::grid_of(const Expr& a, const Expr& b) {
 // A set on a grid, or its complement. None after a report.
 std::optional<SetTerm> Compiler::set_term(const Expr& written, SetVariable grid, bool meet_over_time) {
   const Expr& expr = model_.unfold(written);
+  const std::size_t before = model_.diagnostics().count();
   if (const auto named = evaluator_.set(expr)) {
     if (precisions_.at(named->id) == precisions_.at(grid.id)) return SetTerm{named->id};
     return SetTerm{problem_->refined(*named, grid).id};
   }
-  if (model_.diagnostics().any()) return {};
+  if (model_.diagnostics().count() != before) return {};
   if (calls(expr, BuiltIn::complement)) {
     const auto inner = set_term(*expr.operands[1], grid, !meet_over_time);
     return inner ? std::optional(complement(*inner)) : std::nullopt;

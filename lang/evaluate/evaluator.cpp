@@ -278,7 +278,7 @@ Value Evaluator::symbol(const Symbol& symbol) {
                                                                  : nullptr;
   if (definition == nullptr) return unknown(symbol);
   // A tube at an instant to be found is one value an alternative.
-  if (symbol.takes_instants) return value(*definition);
+  if (symbol.takes_instants || std::holds_alternative<hcsp::Expr>(instant_)) return value(*definition);
   const DefinitionKey key = key_of(symbol);
   if (const auto known = definitions_.find(key); known != definitions_.end()) return known->second;
   Value found = value(*definition);
@@ -287,10 +287,8 @@ Value Evaluator::symbol(const Symbol& symbol) {
 
 Evaluator::DefinitionKey Evaluator::key_of(const Symbol& symbol) const {
   const auto* known = std::get_if<double>(&instant_);
-  const auto* found = std::get_if<hcsp::Expr>(&instant_);
   const auto* delay = std::get_if<Delay>(&instant_);
-  const double number = known != nullptr ? *known : delay != nullptr ? delay->duration : 0.0;
-  return {&symbol, instant_.index(), number, found != nullptr ? found->node() : NodeId{}};
+  return {&symbol, instant_.index(), known != nullptr ? *known : delay != nullptr ? delay->duration : 0.0};
 }
 
 // The element of an array, or the unknown itself, that an expression names, and the first of its components;
@@ -527,8 +525,8 @@ Value Evaluator::relation(const Expr& expr, const Value& a, const Value& b) {
     }
     const bool strict =
         expr.op == Operator::less || expr.op == Operator::greater || expr.op == Operator::not_equal;
-    const bool whole_sides = is_whole(model_.type(*expr.operands[0]), a[i]) &&
-                             is_whole(model_.type(*expr.operands[1]), b[i]);
+    const bool whole_sides =
+        is_whole(model_.type(*expr.operands[0]), a[i]) && is_whole(model_.type(*expr.operands[1]), b[i]);
     const hcsp::Expr one = strict && whole_sides ? apart(expr.op, expression(a[i]), expression(b[i]))
                                                  : compare(expr.op, expression(a[i]), expression(b[i]));
     all = !all ? one : any ? *all || one : *all && one;

@@ -178,7 +178,7 @@ class Evaluator {
   Unknowns* unknowns_ = nullptr;
   std::unordered_map<std::uint32_t, Value> locals_;
   /// A definition has a value an instant.
-  using DefinitionKey = std::tuple<const Symbol*, std::size_t, double, NodeId>;
+  using DefinitionKey = std::tuple<const Symbol*, std::size_t, double>;
   [[nodiscard]] DefinitionKey key_of(const Symbol& symbol) const;
 
   Instant instant_;
