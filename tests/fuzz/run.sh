@@ -14,8 +14,8 @@ trap 'rm -rf "$seeds"' EXIT
 cp good/*.hcsp bad/*.hcsp "$seeds"
 for fuzzer in parse compile; do
   found=$(mktemp -d)
-  # A sanitized build on a busy machine is some ten times slower than the tool: hangs of a second show as ten.
-  "$build/tests/fuzz/${fuzzer}_fuzzer" -dict=../fuzz/hcsp.dict -max_total_time=$((60 * minutes)) -timeout=10 \
+  # A sanitized build is some thirty times slower than the tool: what hangs for a second shows as thirty.
+  "$build/tests/fuzz/${fuzzer}_fuzzer" -dict=../fuzz/hcsp.dict -max_total_time=$((60 * minutes)) -timeout=30 \
     -rss_limit_mb=1024 -max_len=20000 -print_final_stats=1 "$found" ../fuzz/corpus "$seeds"
   rm -rf "$found"
 done
