@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a Problem holds, and what its functions share. Internal to the solver.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <set>
+#include <utility>
+
+#include "domains/check.h"
+#include "solver/contractors/alternatives.h"
+#include "solver/contractors/inputs.h"
+#include "solver/expression/operators.h"
+#include "solver/problem.h"
+#include "solver/problem_run.h"
+
+namespace hcsp {
+
+struct Problem::Impl {
+  std::string name;
+  ContractorGraph graph;
+  Dag dag;
+  std::vector<DomainKind> kinds;  // by variable
+  std::shared_ptr<const TimeLine> line;
+  std::shared_ptr<std::set<VariableId>> sampled = std::make_shared<std::set<VariableId>>();
+  std::shared_ptr<Motions> motions = std::make_shared<Motions>();
+  std::map<VariableId, std::vector<Reading>> readings;
+  std::map<VariableId, Shape> shapes;  // where they differ from the default
+  std::map<VariableId, VectorGroup> vectors;
+  bool fast_paths = true;
+  std::vector<std::unique_ptr<Contractor>>* alternative = nullptr;  // the one being stated
+  std::map<std::pair<VariableId, NodeId>, VectorVariable> values;   // of tubes at instants to be found
+  std::map<std::pair<std::vector<NodeId>, double>, VariableId> integrals;
+  std::map<std::pair<VariableId, double>, VariableId> delayed;       // tubes, by the delay
+  std::map<std::pair<VariableId, double>, SetVariable> refinements;  // by the finer grid's precision
+  std::set<std::string> hidden_names;
+
+  [[nodiscard]] Inputs::Context context() const { return {line, sampled, motions}; }
+
+  template <Lattice D>
+  VariableId add(const std::string& variable, D domain, DomainKind kind, bool hidden = false) {
+    const VariableId id = graph.add_variable(variable, std::move(domain), hidden);
+    kinds.push_back(kind);
+    return id;
+  }
+
+  VectorVariable add_vector(const std::string& vector, const Box& domain, bool hidden = false) {
+    const auto dim = static_cast<std::size_t>(domain.dim());
+    require(dim > 0, "Problem: the vector {} has no components", vector);
+    const auto first = static_cast<VariableId>(graph.variables().size());
+    for (Eigen::Index i = 0; i < domain.dim(); ++i)
+      add(fmt::format("{}[{}]", vector, i + 1), domain[i], DomainKind::real, hidden);
+    vectors.emplace(first, VectorGroup{vector, dim});
+    return {first, dim};
+  }
+
+  VectorExpr components(VectorVariable vector) {
+    VectorExpr all;
+    for (std::size_t i = 0; i < vector.dim; ++i) all.push_back(component(vector, i));
+    return all;
+  }
+
+  Expr component(VectorVariable vector, std::size_t i) {
+    return input(Input::Kind::real, vector.id + static_cast<VariableId>(i), 0);
+  }
+
+  Expr input(Input::Kind kind, VariableId variable, std::size_t component, std::size_t gate = 0) {
+    const Input leaf{kind, variable, static_cast<std::uint32_t>(component), static_cast<std::uint32_t>(gate)};
+    return {dag, dag.input(leaf)};
+  }
+
+  // A name for a hidden variable that no other has.
+  std::string free_name(const std::string& wanted) {
+    std::string name = wanted;
+    for (std::size_t k = 2; !hidden_names.insert(name).second; ++k) name = fmt::format("{} #{}", wanted, k);
+    return name;
+  }
+
+  // A contractor of the problem, or of the alternative that is being stated.
+  void state(std::unique_ptr<Contractor> contractor) {
+    if (alternative == nullptr) {
+      graph.add_contractor(std::move(contractor));
+    } else {
+      alternative->push_back(std::move(contractor));
+    }
+  }
+
+  // What an alternative says of a derivative, or of a tube at an instant, holds there alone.
+  ContractorGraph alternative_of(const std::function<void()>& stated) {
+    std::vector<std::unique_ptr<Contractor>> contractors;
+    auto* outer = std::exchange(alternative, &contractors);
+    const auto outer_motions = std::exchange(motions, std::make_shared<Motions>());
+    const auto outer_values = values;
+    const auto outer_integrals = integrals;
+    const auto restore = [&] {
+      values = outer_values;
+      integrals = outer_integrals;
+      alternative = outer;
+      motions = outer_motions;
+    };
+    try {
+      stated();
+    } catch (...) {
+      restore();
+      throw;
+    }
+    restore();
+    return graph.part(std::move(contractors));
+  }
+
+  [[nodiscard]] std::optional<ItemSet> items_of(const std::optional<Window>& window) const {
+    if (!window) return {};
+    need_line();
+    const auto from = line->gate_at(window->from), to = line->gate_at(window->to);
+    require(from && to && *from <= *to, "Problem: [{}, {}] is no span between instants of the time line",
+            window->from, window->to);
+    return ItemSet::range(2 * *from, 2 * *to);
+  }
+
+  VectorExpr inputs(Input::Kind kind, VariableId variable, std::size_t dim, std::size_t gate = 0) {
+    VectorExpr vector;
+    for (std::size_t c = 0; c < dim; ++c) vector.push_back(input(kind, variable, c, gate));
+    return vector;
+  }
+
+  // The node of an expression of this problem that uses no bound point beyond R^point_dim.
+  NodeId node_of(Expr expression, std::size_t point_dim = 0) const {
+    require(&expression.dag() == &dag, "Problem: the expression belongs to another problem");
+    const Program program(dag, {expression.node()});
+    for (const Input& input : program.inputs()) {
+      require(input.kind != Input::Kind::point || input.component < point_dim,
+              "Problem: the bound point's component {} is free here", input.component + 1);
+    }
+    return expression.node();
+  }
+
+  NodeId relation_of(Expr relation, std::size_t point_dim = 0) const {
+    const NodeId node = node_of(relation, point_dim);
+    require(holds_or_not(node), "Problem: the expression is no relation");
+    return node;
+  }
+
+  [[nodiscard]] bool holds_or_not(NodeId id) const {
+    const DagNode& node = dag[id];
+    if (node.op != Op::if_then_else) return is_boolean(node.op);
+    return holds_or_not(node.operands[1]) && holds_or_not(node.operands[2]);
+  }
+
+  void require_one_grid(const std::vector<SetTerm>& terms) {
+    for (const SetTerm& term : terms) {
+      require(graph.initial<SetInterval>(term.set).grid() == graph.initial<SetInterval>(terms[0].set).grid(),
+              "Problem: sets that meet in a relation need equal dimensions and precisions");
+    }
+  }
+
+  void need_line() const { require(line != nullptr, "Problem: set_time_line comes before the first tube"); }
+};
+
+}  // namespace hcsp
