@@ -111,9 +111,12 @@ VectorExpr Problem::at(TubeVariable x, Expr instant) {
   }
   const auto known = impl_->values.find({x.id, node});
   if (known != impl_->values.end()) return impl_->components(known->second);
-  const std::string name = fmt::format("{} at instant {}", impl_->graph.variable(x.id).name(), node);
-  const VectorVariable value =
-      impl_->add_vector(impl_->free_name(name), Box(static_cast<Eigen::Index>(x.dim)), true);
+  const DagNode& leaf = impl_->dag[node];
+  const bool is_unknown = leaf.op == Op::input && leaf.input.kind == Input::Kind::real;
+  const std::string name = impl_->free_name(
+      fmt::format("{}({})", impl_->graph.variable(x.id).name(),
+                  is_unknown ? impl_->graph.variable(leaf.input.variable).name() : "an instant"));
+  const VectorVariable value = impl_->add_vector(name, Box(static_cast<Eigen::Index>(x.dim)), true);
   impl_->values.emplace(std::pair(x.id, node), value);
   const VectorExpr found = impl_->components(value);
   constrain_sometime(name, time() == instant && found == (*this)(x));
