@@ -76,11 +76,17 @@ class Compiler {
     std::vector<int> at = {};
   };
   void state_failure_at_instants(const Expr& expr);
+  void refuse_choice(const Expr& expr) {
+    not_supported(expr.range, "a choice at every instant between relations that are no values");
+  }
+  [[nodiscard]] bool chooses_anew(const Expr& expr) const;
   void state_logic(const Expr& expr, bool wanted);
   void state_quantified(const Expr& expr, bool wanted);
   void state_for_each(const Expr& expr, bool wanted);
   void state_at_least(const Expr& expr, int count, std::vector<Alternative> alternatives);
   void state_over_time(const Expr& expr, bool wanted);
+  void state_always(const Expr& expr, bool wanted, const std::optional<Window>& window);
+  void state_sometime(const Expr& expr, bool wanted, const std::optional<Window>& window);
   void state_at_an_instant(const Expr& expr, bool wanted, const std::optional<Window>& window);
   std::optional<Window> window_of(const Expr& expr);
   [[nodiscard]] bool connects(const Expr& expr) const;

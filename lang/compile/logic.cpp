@@ -83,12 +83,21 @@ void Compiler::state_failure_at_instants(const Expr& expr) {
   guarded(expr.range, [&] { problem_->constrain_at_least(next_name(), 1, {fails, is_off_the_line}); });
 }
 
+// Whether a choice may fall differently at different instants: it may not where the condition is always the
+// same, or all relations but one are.
+bool Compiler::chooses_anew(const Expr& expr) const {
+  if (expr.kind == ExprKind::conditional) return evaluator_.varies(*expr.operands[0]);
+  const bool is_count = expr.kind == ExprKind::call;
+  const std::vector<Expr*>& relations = is_count ? expr.operands[2]->operands : expr.operands;
+  return std::count_if(relations.begin(), relations.end(),
+                       [&](const Expr* relation) { return evaluator_.varies(*relation); }) > 1;
+}
+
 void Compiler::state_logic(const Expr& expr, bool wanted) {
   if (expr.kind == ExprKind::quantified) return state_quantified(expr, wanted);
   if (expr.kind == ExprKind::unary) return state(*expr.operands[0], !wanted);
-  if (evaluator_.varies(expr) && at_every_instant_ &&
-      !(expr.op == (wanted ? Operator::logical_and : Operator::logical_or)))
-    return not_supported(expr.range, "a choice at every instant between relations that are no values");
+  const bool is_conjunction = expr.op == (wanted ? Operator::logical_and : Operator::logical_or);
+  if (at_every_instant_ && !is_conjunction && chooses_anew(expr)) return refuse_choice(expr);
   if (expr.kind == ExprKind::call) {
     const auto least = evaluator_.whole(*expr.operands[1]);
     std::vector<Alternative> alternatives;
@@ -133,6 +142,8 @@ void Compiler::state_quantified(const Expr& expr, bool wanted) {
     return true;
   });
   if (!bound) return;
+  if (at_every_instant_ && evaluator_.varies(*expr.operands[0]) && alternatives.size() > 1)
+    return refuse_choice(expr);
   int least = 1;
   if (expr.quantifier == Quantifier::at_least) {
     const auto count = evaluator_.whole(*expr.operands[1]);
@@ -183,23 +194,38 @@ std::optional<Window> Compiler::window_of(const Expr& expr) {
   return Window{from->nearest(), to->nearest()};
 }
 
+// The quantifier binds t anew, whatever instant stands around it.
 void Compiler::state_over_time(const Expr& expr, bool wanted) {
-  const Expr& body = model_.unfold(*expr.operands[0]);
   const std::size_t before = model_.diagnostics().count();
   const std::optional<Window> window = window_of(expr);
   if (model_.diagnostics().count() != before) return;
-  const bool always = (expr.quantifier == Quantifier::forall) == wanted;
-  if (model_.is_stated(body)) {
-    if (!always) return state_at_an_instant(body, wanted, window);
-    if (window) return not_supported(expr.bindings[0].domain->range, "a span of time for this relation");
-    const bool outer = std::exchange(at_every_instant_, true);
-    state(body, wanted);
-    at_every_instant_ = outer;
+  evaluator_.at({}, [&] {
+    if ((expr.quantifier == Quantifier::forall) == wanted) {
+      state_always(expr, wanted, window);
+    } else {
+      state_sometime(expr, wanted, window);
+    }
+  });
+}
+
+void Compiler::state_always(const Expr& expr, bool wanted, const std::optional<Window>& window) {
+  const Expr& body = model_.unfold(*expr.operands[0]);
+  if (!model_.is_stated(body)) {
+    if (const auto relation = relation_of(body, wanted)) state_truth(*relation, window);
     return;
   }
+  if (window) return not_supported(expr.bindings[0].domain->range, "a span of time for this relation");
+  const bool outer = std::exchange(at_every_instant_, true);
+  state(body, wanted);
+  at_every_instant_ = outer;
+}
+
+void Compiler::state_sometime(const Expr& expr, bool wanted, const std::optional<Window>& window) {
+  const Expr& body = model_.unfold(*expr.operands[0]);
+  if (model_.is_stated(body)) return state_at_an_instant(body, wanted, window);
   const auto relation = relation_of(body, wanted);
   if (!relation) return;
-  if (always || Evaluator::truth(*relation)) return state_truth(*relation, window);
+  if (Evaluator::truth(*relation)) return state_truth(*relation);
   guarded(expr.range, [&] {
     problem_->constrain_sometime(next_name(), Evaluator::expression(*problem_, *relation), window);
   });

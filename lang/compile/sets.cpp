@@ -284,7 +284,11 @@ bool Compiler::is_zone(const Expr& written) const {
 // The points for which the relation of a zone holds, or does not. None after a report.
 std::optional<SetBuilder> Compiler::zone_of(const Expr& written, bool wanted) {
   const Expr* expr = &model_.unfold(written);
-  if (expr->kind == ExprKind::quantified) expr = &model_.unfold(*expr->operands[0]);
+  if (expr->kind == ExprKind::quantified) {  // it binds t anew, whatever instant stands around it
+    std::optional<SetBuilder> zone;
+    evaluator_.at({}, [&] { zone = zone_of(*expr->operands[0], wanted); });
+    return zone;
+  }
   const std::uint32_t dim = model_.type(*expr).dim;
   const VectorExpr point = problem_->point(dim);
   evaluator_.bind(model_.reference(*expr).local, Value(point.begin(), point.end()));

@@ -64,7 +64,7 @@ class RandomFormulas {
   Formula atom() {
     double c = limit(), d = limit();
     if (c > d) std::swap(c, d);
-    switch (below(12)) {
+    switch (below(16)) {
       case 0:
         return {fmt::format("p > {}", c), p_ > c};
       case 1:
@@ -87,6 +87,16 @@ class RandomFormulas {
         return {"p in L", -1 < p_ && p_ < 1};
       case 10:
         return {"(exists(t) x in L)", true};
+      case 11:  // the inner t is another
+        return {fmt::format("(exists(t) (x > {} and exists(t) x < {}))", d, c), d < 2 && c > 0};
+      case 12:
+        return {fmt::format("(forall(t) (x < {} and exists(t) x > {}))", c + 0.25, d), 2 < c + 0.25 && d < 2};
+      case 13:  // of a choice at every instant all but one are the same all the time
+        return {fmt::format("(forall(t) ((exists(t) x < {}) or x in L or p > {}))", c, d), c > 0 || p_ > d};
+      case 14:
+        return {fmt::format("(exists(t) (x in {{a : real[1] | abs(a[1]) < {}}} and x(p) > {}))",
+                            std::abs(c) + 0.25, d),
+                is_on_the_line(p_) && p_ > d};
       default:
         return {fmt::format("{{a : real[1] | abs(a[1]) < {}}} subset L", std::abs(c) + 0.25),
                 std::abs(c) + 0.25 <= 1};
