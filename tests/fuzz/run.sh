@@ -14,8 +14,8 @@ trap 'rm -rf "$seeds"' EXIT
 cp good/*.hcsp bad/*.hcsp "$seeds"
 for fuzzer in parse compile; do
   found=$(mktemp -d)
-  # A sanitized build is some thirty times slower than the tool: what hangs for a second shows as thirty.
-  "$build/tests/fuzz/${fuzzer}_fuzzer" -dict=../fuzz/hcsp.dict -max_total_time=$((60 * minutes)) -timeout=30 \
+  # A sanitized build is some fifty times slower than the tool: what hangs for a second shows as a minute.
+  "$build/tests/fuzz/${fuzzer}_fuzzer" -dict=../fuzz/hcsp.dict -max_total_time=$((60 * minutes)) -timeout=60 \
     -rss_limit_mb=1024 -max_len=20000 -print_final_stats=1 "$found" ../fuzz/corpus "$seeds"
   rm -rf "$found"
 done
