@@ -36,7 +36,11 @@ PropagationOptions Access::limits() const {
   PropagationOptions options;
   options.cancel = run_.options_.cancel;
   options.clock = run_.options_.clock;
-  if (run_.options_.time_limit > 0) options.time_limit = run_.options_.time_limit - run_.elapsed();
+  // One that has passed leaves next to nothing: 0 would be no limit.
+  constexpr double kNextToNothing = 1e-9;
+  if (run_.options_.time_limit > 0)
+    options.time_limit = std::max(run_.options_.time_limit - run_.elapsed(), kNextToNothing);
+  options.threshold = run_.options_.threshold;
   return options;
 }
 
