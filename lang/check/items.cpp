@@ -140,8 +140,7 @@ void Checker::check_parameter(Symbol& symbol, const ParamItem& item) {
       not_supported(item.type->range, "a parameter of this type");
       return;
     }
-    if (wanted.whole && found.is(Type::Kind::real) && wanted.is_scalar() && !constants_.whole(*item.value))
-      return;
+    if (wanted.whole && found.is(Type::Kind::real) && !constants_.all_whole(*item.value)) return;
     if (wanted.is_array() && !found.has_shape_of(wanted)) {
       diagnostics().report(Code::wrong_type, item.value->range, describe(wanted), describe(found));
       return;

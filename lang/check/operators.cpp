@@ -171,9 +171,7 @@ Type Checker::check_power(const Expr& expr, const Type& base, const Type& expone
     return count ? Type{Type::Kind::domain, false, *count, base.known, nullptr} : Type{};
   }
   if (!base.is_scalar_real() || !exponent.is_scalar_real()) return wrong_operands(expr, base, exponent);
-  Type type = combined(Type::Kind::real, 0, base, exponent);
-  type.whole = base.whole && exponent.whole;
-  return type;
+  return combined(Type::Kind::real, 0, base, exponent);  // no int: n^-1 is not whole
 }
 
 Type Checker::check_tolerance(const Expr& expr, const Type& a, const Type& b) {

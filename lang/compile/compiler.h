@@ -103,6 +103,7 @@ class Compiler {
   void state_meets(const Expr& a, const Expr& b, bool wanted);
   void state_point_in_set(const Expr& point, const Expr& set, bool wanted);
   void collect_sets(const Expr& expr, std::vector<NamedSet>& found);
+  void refuse_sets_over_time(const Expr& expr);
   std::optional<SetVariable> grid_of(const Expr& a, const Expr& b);
   std::optional<SetTerm> set_term(const Expr& expr, SetVariable grid, bool meet_over_time = false);
   std::optional<SetVariable> set_variable(const Expr& expr, SetVariable grid);
@@ -132,9 +133,8 @@ class Compiler {
   Unknowns unknowns_;
   Evaluator evaluator_;
   std::unordered_map<const Symbol*, TubePlan> plans_;
-  std::unordered_map<VariableId, double> precisions_;  // of the sets
-  std::uint32_t alternatives_ = 0;                     // how many were stated, each within those around it
-  bool at_every_instant_ = false;  // what is stated holds, or does not, at every instant on its own
+  std::uint32_t alternatives_ = 0;  // how many were stated, each within those around it
+  bool at_every_instant_ = false;   // what is stated holds, or does not, at every instant on its own
   std::unordered_map<const Expr*, std::optional<Box>> domains_;  // as they were stated
   std::string constraint_;                                       // the name of the constraint at hand
   std::unordered_map<std::string, int> names_;  // of all constraints: how often they were asked for

@@ -51,9 +51,7 @@ void Compiler::state_set_equality(const Expr& a, const Expr& b, bool wanted) {
 void Compiler::state_subset(const Expr& a, const Expr& b, bool wanted) {
   const auto grid = grid_of(a, b);
   if (!grid) return;
-  const bool varies = evaluator_.varies(a) || evaluator_.varies(b);
-  if ((varies && !wanted) || (evaluator_.varies(a) && evaluator_.varies(b)))
-    return not_supported(a.range, "this relation between sets that vary with time");
+  if (!wanted && (evaluator_.varies(a) || evaluator_.varies(b))) return refuse_sets_over_time(a);
   guarded(a.range, [&] {
     const auto part = set_term(a, *grid), whole = part ? set_term(b, *grid, true) : std::nullopt;
     if (!whole) return;
@@ -69,8 +67,6 @@ void Compiler::state_disjoint(const Expr& a, const Expr& b, bool wanted) {
   if (!wanted) return state_meets(a, b, true);
   const auto grid = grid_of(a, b);
   if (!grid) return;
-  if (evaluator_.varies(a) && evaluator_.varies(b))
-    return not_supported(a.range, "this relation between sets that vary with time");
   guarded(a.range, [&] {
     const auto one = set_term(a, *grid), other = one ? set_term(b, *grid) : std::nullopt;
     if (!other) return;
@@ -87,8 +83,6 @@ void Compiler::state_meets(const Expr& a, const Expr& b, bool wanted) {
   if (!wanted) return state_disjoint(a, b, true);
   const auto grid = grid_of(a, b);
   if (!grid) return;
-  if (evaluator_.varies(a) && evaluator_.varies(b))
-    return not_supported(a.range, "this relation between sets that vary with time");
   const auto is_builder = [&](const Expr& set) { return model_.unfold(set).kind == ExprKind::builder; };
   guarded(a.range, [&] {
     const bool zone_first = is_builder(a) && !evaluator_.varies(b);
@@ -98,8 +92,7 @@ void Compiler::state_meets(const Expr& a, const Expr& b, bool wanted) {
       if (set) problem_->constrain_meets(next_name(), *builder, *set);
       return;
     }
-    if (evaluator_.varies(a) || evaluator_.varies(b))
-      return not_supported(a.range, "this relation between sets that vary with time");
+    if (evaluator_.varies(a) || evaluator_.varies(b)) return refuse_sets_over_time(a);
     const auto one = set_term(a, *grid), other = one ? set_term(b, *grid) : std::nullopt;
     if (other) problem_->constrain_common_point(next_name(), *one, *other);
   });
@@ -142,14 +135,24 @@ void Compiler::collect_sets(const Expr& written, std::vector<NamedSet>& found) {
   });
 }
 
-// The finest of the sets that two expressions name; all are on its grid, or on coarser ones that it refines.
+void Compiler::refuse_sets_over_time(const Expr& expr) {
+  not_supported(expr.range, "this relation between sets that vary with time");
+}
+
+// The finest of the sets that the two sides of a relation name; all are on its grid, or on coarser ones that
+// it refines. What the sides are at one instant says nothing of what they are over time: one of them may
+// vary.
 std::optional<SetVariable> Compiler::grid_of(const Expr& a, const Expr& b) {
+  if (&a != &b && evaluator_.varies(a) && evaluator_.varies(b)) {
+    refuse_sets_over_time(a);
+    return {};
+  }
   std::vector<NamedSet> named;
   const std::size_t before = model_.diagnostics().count();
   collect_sets(a, named);
   if (&a != &b) collect_sets(b, named);
   if (model_.diagnostics().count() != before) return {};
-  const auto precision = [&](const NamedSet& one) { return precisions_.at(one.set.id); };
+  const auto precision = [&](const NamedSet& one) { return problem_->precision(one.set); };
   const auto finest = std::min_element(named.begin(), named.end(), [&](const auto& one, const auto& other) {
     return precision(one) < precision(other);
   });
@@ -172,7 +175,7 @@ std::optional<SetTerm> Compiler::set_term(const Expr& written, SetVariable grid,
   const Expr& expr = model_.unfold(written);
   const std::size_t before = model_.diagnostics().count();
   if (const auto named = evaluator_.set(expr)) {
-    if (precisions_.at(named->id) == precisions_.at(grid.id)) return SetTerm{named->id};
+    if (problem_->precision(*named) == problem_->precision(grid)) return SetTerm{named->id};
     return SetTerm{problem_->refined(*named, grid).id};
   }
   if (model_.diagnostics().count() != before) return {};
@@ -181,7 +184,6 @@ std::optional<SetTerm> Compiler::set_term(const Expr& written, SetVariable grid,
     return inner ? std::optional(complement(*inner)) : std::nullopt;
   }
   const SetVariable made = problem_->hidden_set(constraint_ + " set", grid);
-  precisions_.emplace(made.id, precisions_.at(grid.id));
   // What is in all sets of a time is in the complement of no one of them.
   if (meet_over_time && evaluator_.varies(expr) && is_zone(expr)) {
     const auto outside = zone_of(expr, false);

@@ -310,9 +310,7 @@ std::optional<Unknowns::Handle> Compiler::make_set(const Symbol& symbol, const s
   std::optional<Box> frame;
   if (item.domain != nullptr) frame = frame_of(*item.domain);
   if (!precision || (item.domain != nullptr && !frame)) return {};
-  const SetVariable set = problem_->set(name, symbol.type.dim, *precision, frame);
-  precisions_.emplace(set.id, *precision);
-  return set;
+  return problem_->set(name, symbol.type.dim, *precision, frame);
 }
 
 }  // namespace hcsp::lang

@@ -67,6 +67,20 @@ std::optional<int> Evaluator::whole(const Expr& expr) {
   return {};
 }
 
+bool Evaluator::all_whole(const Expr& expr) {
+  if (model_.type(expr).is_scalar()) return whole(expr).has_value();
+  const Value components = value(expr);
+  const bool good = std::all_of(components.begin(), components.end(), [](const Term& term) {
+    const auto* number = std::get_if<Number>(&term);
+    return number != nullptr && number->exact && number->exact->as_int();
+  });
+  if (!good) {
+    model_.diagnostics().report(Code::wrong_type, expr.range, "whole numbers",
+                                fmt::format("`{}`", expr.range.text().substr(0, 40)));
+  }
+  return good && !components.empty();
+}
+
 std::optional<Box> Evaluator::box(const Expr& expr) {
   const auto enclosure = [](const Term& term) { return std::get<Number>(term).enclosure; };
   if (model_.type(expr).is(Type::Kind::real)) {

@@ -52,6 +52,8 @@ class Evaluator {
   std::optional<Number> number(const Expr& expr);
   /// A whole number; anything else is reported.
   std::optional<int> whole(const Expr& expr);
+  /// Whether all components are whole numbers; the first that is none is reported.
+  bool all_whole(const Expr& expr);
   /// The whole numbers of `a..b`, none of them where b is below a.
   std::optional<Extent> range(const Expr& expr);
   /// Runs body() for every value of the whole numbers that an expression binds, the last name fastest, until

@@ -38,7 +38,7 @@ hcsp::Expr apart(Operator op, const hcsp::Expr& a, const hcsp::Expr& b) {
 /// Whether a term of this type is whole whatever the unknowns are.
 bool is_whole(const Type& type, const Term& term) {
   const auto* number = std::get_if<Number>(&term);
-  return type.whole || (number != nullptr && number->exact && number->exact->as_int());
+  return number == nullptr ? type.whole : number->exact && number->exact->as_int().has_value();
 }
 
 /// How a comparison of constants ends, where their enclosures tell.
