@@ -139,6 +139,7 @@ class Problem {
   void constrain_disjoint(std::string name, SetVariable a, SetVariable b);
   /// For every t, zone(t) meets the set.
   void constrain_meets(std::string name, const SetBuilder& zone, SetVariable set);
+  [[nodiscard]] double precision(SetVariable set) const;
   /// A set that results do not show, on the grid of another: what a set expression is put together from.
   SetVariable hidden_set(std::string name, SetVariable like);
   /// The same set on the finer grid of another, hidden too. std::invalid_argument unless the ratio of their

@@ -41,15 +41,15 @@ void Problem::constrain_derivative(std::string name, TubeVariable x, const Vecto
     components.push_back(nodes.size());
     nodes.push_back(impl_->node_of(component));
   }
-  impl_->state(make_derivative_contractor(std::move(name), x.id, std::move(components), impl_->dag, nodes,
-                                          impl_->context()));
+  impl_->state(make_derivative_contractor(std::move(name), x.id, x.dim, std::move(components), impl_->dag,
+                                          nodes, impl_->context()));
 }
 
 void Problem::constrain_derivative(std::string name, TubeVariable x, std::size_t component, Expr f) {
   impl_->need_line();
   require(component < x.dim, "Problem: component {} of {}", component + 1, x.dim);
-  impl_->state(make_derivative_contractor(std::move(name), x.id, {component}, impl_->dag, {impl_->node_of(f)},
-                                          impl_->context()));
+  impl_->state(make_derivative_contractor(std::move(name), x.id, x.dim, {component}, impl_->dag,
+                                          {impl_->node_of(f)}, impl_->context()));
 }
 
 void Problem::constrain_union(std::string name, SetVariable set, const SetBuilder& zone) {
@@ -63,6 +63,10 @@ void Problem::constrain_disjoint(std::string name, SetVariable a, SetVariable b)
   require(impl_->graph.initial<SetInterval>(a.id).grid() == impl_->graph.initial<SetInterval>(b.id).grid(),
           "Problem: disjoint sets need equal dimensions and precisions");
   impl_->state(make_disjoint_contractor(name, name, a.id, b.id));
+}
+
+double Problem::precision(SetVariable set) const {
+  return impl_->graph.initial<SetInterval>(set.id).precision();
 }
 
 SetVariable Problem::hidden_set(std::string name, SetVariable like) {

@@ -37,8 +37,9 @@ Interval slice_hull(const Interval& x0, const Interval& x1, const Interval& v, c
 
 class DerivativeContractor final : public Contractor, public Motion {
  public:
-  DerivativeContractor(const std::string& name, VariableId x, std::vector<std::size_t> components,
-                       Program program, Inputs inputs, std::shared_ptr<const TimeLine> line)
+  DerivativeContractor(const std::string& name, VariableId x, std::size_t dim,
+                       std::vector<std::size_t> components, Program program, Inputs inputs,
+                       std::shared_ptr<const TimeLine> line)
       : Contractor(name, name, Cost::linear, with(inputs.variables(), x), {x}),
         x_(x),
         f_depends_on_x_(std::count(inputs.variables().begin(), inputs.variables().end(), x) > 0),
@@ -47,7 +48,7 @@ class DerivativeContractor final : public Contractor, public Motion {
         inputs_(std::move(inputs)),
         evaluation_(program_, kLanes),
         components_(std::move(components)),
-        slopes_(components_.size(), std::vector<Interval>(line_->slices())),
+        slopes_(dim, std::vector<Interval>(line_->slices())),
         steps_(slopes_) {}
 
   void begin() override {
@@ -55,10 +56,7 @@ class DerivativeContractor final : public Contractor, public Motion {
   }
 
   [[nodiscard]] const Interval& step(std::size_t component, std::size_t slice) const override {
-    static const Interval kUnknown = Interval::entire();
-    const auto found = std::find(components_.begin(), components_.end(), component);
-    if (found == components_.end()) return kUnknown;
-    return steps_[static_cast<std::size_t>(found - components_.begin())][slice];
+    return steps_[component][slice];
   }
 
   void contract(Access& access) override {
@@ -70,8 +68,8 @@ class DerivativeContractor final : public Contractor, public Motion {
     before.join(new_slopes_);
     ItemSet changes;
     std::optional<std::array<double, 2>> when;
-    for (std::size_t i = 0; i < components_.size() && !x.is_empty(); ++i) {
-      const std::size_t c = components_[i];
+    for (const std::size_t c : components_) {
+      if (x.is_empty()) break;
       ItemSet moved = before;
       const auto meet_at = [&](std::size_t item, const Interval& bound) {
         if (x.is_empty() || !x.meet_at(c, item, bound)) return;
@@ -81,7 +79,7 @@ class DerivativeContractor final : public Contractor, public Motion {
       };
       meet_gates_with_slices(x, c, meet_at);
       while (!moved.is_none() && !x.is_empty()) {
-        sweep(x, i, moved, meet_at);
+        sweep(x, c, moved, meet_at);
         moved = {};
         meet_gates_with_slices(x, c, meet_at);
       }
@@ -127,8 +125,9 @@ class DerivativeContractor final : public Contractor, public Motion {
     for (std::size_t lane = 0; lane < slices.size(); ++lane) {
       const std::size_t k = slices[lane];
       const Interval dt = duration(k);
-      for (std::size_t c = 0; c < slopes_.size(); ++c) {
-        slopes_[c][k] = evaluation_.get(program_.root(c), lane);
+      for (std::size_t i = 0; i < components_.size(); ++i) {
+        const std::size_t c = components_[i];
+        slopes_[c][k] = evaluation_.get(program_.root(i), lane);
         if (slopes_[c][k].is_empty()) {
           access.fail(x_, when_at(2 * k + 1));
           return false;
@@ -152,23 +151,22 @@ class DerivativeContractor final : public Contractor, public Motion {
 
   // One sweep forward, one back, then the slices whose ends moved. `moved` grows as the sweep goes.
   template <class MeetAt>
-  void sweep(const Tube& x, std::size_t i, ItemSet& moved, const MeetAt& meet_at) {
-    const std::size_t c = components_[i];
+  void sweep(const Tube& x, std::size_t c, ItemSet& moved, const MeetAt& meet_at) {
     const std::size_t slices = line_->slices();
     for (std::size_t k = 0; k < slices; ++k) {
       const std::size_t before = 2 * k, slice = before + 1, after = before + 2;
       if (moved.contains(before) || moved.contains(slice))
-        meet_at(after, up::add(x.at(c, before), steps_[i][k]));
+        meet_at(after, up::add(x.at(c, before), steps_[c][k]));
     }
     for (std::size_t k = slices; k-- > 0;) {
       const std::size_t before = 2 * k, slice = before + 1, after = before + 2;
       if (moved.contains(after) || moved.contains(slice))
-        meet_at(before, up::sub(x.at(c, after), steps_[i][k]));
+        meet_at(before, up::sub(x.at(c, after), steps_[c][k]));
     }
     for (std::size_t k = 0; k < slices && !x.is_empty(); ++k) {
       const std::size_t before = 2 * k, slice = before + 1, after = before + 2;
       if (!moved.contains(before) && !moved.contains(slice) && !moved.contains(after)) continue;
-      meet_at(slice, slice_hull(x.at(c, before), x.at(c, after), slopes_[i][k], duration(k)));
+      meet_at(slice, slice_hull(x.at(c, before), x.at(c, after), slopes_[c][k], duration(k)));
     }
   }
 
@@ -190,20 +188,20 @@ class DerivativeContractor final : public Contractor, public Motion {
   Evaluation evaluation_;
   ItemSet new_slopes_;
   std::vector<std::size_t> components_;        // of x: those whose derivatives these are
-  std::vector<std::vector<Interval>> slopes_;  // [f] by component and slice
+  std::vector<std::vector<Interval>> slopes_;  // [f] by component of x and slice
   std::vector<std::vector<Interval>> steps_;   // [f] dt
 };
 
 }  // namespace
 
-std::unique_ptr<Contractor> make_derivative_contractor(std::string name, VariableId x,
+std::unique_ptr<Contractor> make_derivative_contractor(std::string name, VariableId x, std::size_t dim,
                                                        std::vector<std::size_t> components, const Dag& dag,
                                                        const std::vector<NodeId>& f,
                                                        const Inputs::Context& context) {
   Program program(dag, f);
   Inputs inputs(program, context);
-  auto contractor = std::make_unique<DerivativeContractor>(name, x, std::move(components), std::move(program),
-                                                           std::move(inputs), context.line);
+  auto contractor = std::make_unique<DerivativeContractor>(
+      name, x, dim, std::move(components), std::move(program), std::move(inputs), context.line);
   (*context.motions)[x].push_back(contractor.get());
   return contractor;
 }

@@ -56,6 +56,11 @@ class ContractorGraph {
     return dynamic_cast<TypedSlot<D>&>(variables_.at(id).initial()).domain;
   }
 
+  template <Lattice D>
+  [[nodiscard]] const D& initial(VariableId id) const {
+    return dynamic_cast<const TypedSlot<D>&>(variables_.at(id).initial()).domain;
+  }
+
   [[nodiscard]] const std::vector<Variable>& variables() const { return variables_; }
   [[nodiscard]] const Variable& variable(VariableId id) const { return variables_[id]; }
   [[nodiscard]] const std::vector<std::unique_ptr<Contractor>>& contractors() const { return contractors_; }
