@@ -29,6 +29,12 @@ BooleanVariable Problem::boolean(std::string name) {
   return {id};
 }
 
+BooleanVariable Problem::hidden_boolean(std::string name) {
+  const VariableId id = impl_->add(impl_->free_name(name), Interval(0.0, 1.0), DomainKind::real, true);
+  impl_->state(make_integrality_contractor(impl_->graph.variable(id).name(), id));
+  return {id};
+}
+
 VectorVariable Problem::vector(std::string name, const Box& domain) {
   return impl_->add_vector(name, domain);
 }
@@ -98,11 +104,13 @@ VectorExpr Problem::at(TubeVariable x, double t) {
   impl_->need_line();
   const auto gate = impl_->line->gate_at(t);
   require(gate.has_value(), "Problem: {} is not an instant of the time line", t);
+  if (impl_->each_instant != nullptr) impl_->each_instant->anchored.insert(x.id);
   return impl_->inputs(Input::Kind::gate, x.id, x.dim, *gate);
 }
 
 VectorExpr Problem::at(TubeVariable x, Expr instant) {
   impl_->need_line();
+  impl_->require_all_time("an instant to be found");
   const NodeId node = impl_->node_of(instant);
   const Program program(impl_->dag, {node});
   for (const Input& input : program.inputs()) {
@@ -119,6 +127,7 @@ VectorExpr Problem::at(TubeVariable x, Expr instant) {
   const VectorVariable value = impl_->add_vector(name, Box(static_cast<Eigen::Index>(x.dim)), true);
   impl_->values.emplace(std::pair(x.id, node), value);
   const VectorExpr found = impl_->components(value);
+  const Meanwhile all_time(impl_->window, std::shared_ptr<const ItemSet>());
   constrain_sometime(name, time() == instant && found == (*this)(x));
   return found;
 }
@@ -130,15 +139,19 @@ VectorExpr Problem::delayed(TubeVariable x, double delay) {
   if (known != impl_->delayed.end()) return impl_->inputs(Input::Kind::tube, known->second, x.dim);
   const std::string name = impl_->free_name(
       fmt::format("{}(t {} {})", impl_->graph.variable(x.id).name(), delay < 0 ? "+" : "-", std::abs(delay)));
-  const VariableId value = impl_->add(name, Tube(impl_->line, x.dim), DomainKind::tube, true);
-  // It is what it is whatever holds: no alternative owns this.
-  impl_->graph.add_contractor(make_delay_contractor(name, value, x.id, *impl_->line, delay));
+  require(!impl_->is_own_to_an_instant(x.id), "Problem: {} is of one instant", name);
+  VariableId value = 0;
+  impl_->define([&] {
+    value = impl_->add(name, Tube(impl_->line, x.dim), DomainKind::tube, true);
+    impl_->state(make_delay_contractor(name, value, x.id, *impl_->line, delay));
+  });
   impl_->delayed.emplace(std::pair(x.id, delay), value);
   return impl_->inputs(Input::Kind::tube, value, x.dim);
 }
 
 TubeVariable Problem::integral(const VectorExpr& f, double from) {
   impl_->need_line();
+  impl_->require_all_time("an integral");
   const auto start = impl_->line->gate_at(from);
   require(start.has_value(), "Problem: {} is not an instant of the time line", from);
   std::vector<NodeId> nodes;
@@ -150,14 +163,19 @@ TubeVariable Problem::integral(const VectorExpr& f, double from) {
   for (std::size_t c = 0; c < f.size(); ++c) domain.set(c, 2 * *start, 0.0);
   const VariableId value = impl_->add(name, std::move(domain), DomainKind::tube, true);
   impl_->integrals.emplace(std::pair(nodes, from), value);
+  const Meanwhile all_time(impl_->window, std::shared_ptr<const ItemSet>());
   constrain_derivative(name, {value, f.size()}, f);
   return {value, f.size()};
 }
 
-Expr Problem::instant(std::string name, const std::optional<Window>& window) {
+Expr Problem::instant(std::string name) {
   impl_->need_line();
-  const TimeLine& line = *impl_->line;
-  const Interval span = window ? Interval(window->from, window->to) : Interval(line.start(), line.end());
+  impl_->require_all_time("an instant to be found");
+  Interval span(impl_->line->start(), impl_->line->end());
+  if (impl_->window != nullptr) {
+    span = Interval::empty();
+    impl_->window->for_each([&](std::size_t item) { span = join(span, impl_->line->span(item)); });
+  }
   return impl_->input(Input::Kind::real, impl_->add(impl_->free_name(name), span, DomainKind::real, true), 0);
 }
 

@@ -59,7 +59,7 @@ struct Reading {
   std::string source;
 };
 
-/// The closed span between two instants of the time line.
+/// The closed span between two instants of the time line; std::invalid_argument where it is none.
 struct Window {
   double from;
   double to;
@@ -112,19 +112,26 @@ class Problem {
   VectorExpr delayed(TubeVariable x, double delay);
   /// The integral of f, expressions at the time at hand, from an instant of the time line on.
   TubeVariable integral(const VectorExpr& f, double from);
-  /// An instant to be found, on the time line or in the window.
-  Expr instant(std::string name, const std::optional<Window>& window = {});
+  /// An instant to be found, on the time line or in the window at hand.
+  Expr instant(std::string name);
   /// The identity tube t.
   Expr time();
   /// The bound point a of a set builder in R^dim.
   VectorExpr point(std::size_t dim);
 
   // Constraints. `name` is what statistics and explanations call it.
-  /// A relation. With tubes at the time at hand in it, it holds at every instant of the time line, or of the
-  /// window.
-  void constrain(std::string name, Expr relation, const std::optional<Window>& window = {});
-  /// A relation that holds at some instant of the time line, or of the window.
-  void constrain_sometime(std::string name, Expr relation, const std::optional<Window>& window = {});
+  /// A relation. With tubes at the time at hand in it, it holds at every instant.
+  void constrain(std::string name, Expr relation);
+  /// A relation that holds at some instant.
+  void constrain_sometime(std::string name, Expr relation);
+  /// What is stated while body() runs speaks of the instants of a window, or of all: "every t" above and
+  /// below is one of them.
+  void during(const std::optional<Window>& window, const std::function<void()>& body);
+  /// What is stated while body() runs holds at each instant by itself, so that constrain_at_least() chooses
+  /// anew at each; unknowns that it declares are others at each. It may speak of the time at hand, of given
+  /// instants and of delays; std::invalid_argument for derivatives, integrals and instants to be found.
+  void at_each_instant(std::string name, const std::function<void()>& body);
+  [[nodiscard]] bool is_at_each_instant() const;
   /// At least `least` of some alternatives hold. An alternative is all that is stated while its function
   /// runs; unknowns may be declared there too. std::invalid_argument unless 1 <= least <= their number.
   void constrain_at_least(std::string name, std::size_t least,
@@ -140,6 +147,8 @@ class Problem {
   /// For every t, zone(t) meets the set.
   void constrain_meets(std::string name, const SetBuilder& zone, SetVariable set);
   [[nodiscard]] double precision(SetVariable set) const;
+  /// A Boolean that results do not show.
+  BooleanVariable hidden_boolean(std::string name);
   /// A set that results do not show, on the grid of another: what a set expression is put together from.
   SetVariable hidden_set(std::string name, SetVariable like);
   /// The same set on the finer grid of another, hidden too. std::invalid_argument unless the ratio of their

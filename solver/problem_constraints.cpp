@@ -13,15 +13,38 @@
 
 namespace hcsp {
 
-void Problem::constrain(std::string name, Expr relation, const std::optional<Window>& window) {
-  impl_->state(make_relation_contractor(std::move(name), impl_->dag, impl_->relation_of(relation),
-                                        impl_->context(), impl_->items_of(window)));
+void Problem::constrain(std::string name, Expr relation) {
+  impl_->state(
+      make_relation_contractor(std::move(name), impl_->dag, impl_->relation_of(relation), impl_->context()));
 }
 
-void Problem::constrain_sometime(std::string name, Expr relation, const std::optional<Window>& window) {
-  impl_->state(make_sometime_contractor(std::move(name), impl_->dag, impl_->relation_of(relation),
-                                        impl_->context(), impl_->items_of(window)));
+void Problem::constrain_sometime(std::string name, Expr relation) {
+  impl_->require_all_time("some instant");
+  impl_->state(
+      make_sometime_contractor(std::move(name), impl_->dag, impl_->relation_of(relation), impl_->context()));
 }
+
+void Problem::during(const std::optional<Window>& window, const std::function<void()>& body) {
+  impl_->require_all_time("a span of time");
+  const Meanwhile at_hand(impl_->window, window ? impl_->items_of(*window) : nullptr);
+  body();
+}
+
+void Problem::at_each_instant(std::string name, const std::function<void()>& body) {
+  impl_->need_line();
+  impl_->require_all_time("each instant");
+  const ItemSet window = impl_->window ? *impl_->window : ItemSet::all(impl_->line->items());
+  auto instant = std::make_shared<InstantAtHand>();
+  ContractorGraph stated = [&] {
+    const Meanwhile at_hand(impl_->window, std::shared_ptr<const ItemSet>(instant->item));
+    const Meanwhile within(impl_->each_instant, instant);
+    return impl_->alternative_of(body);
+  }();
+  impl_->state(
+      make_each_instant_contractor(std::move(name), std::move(stated), *instant, impl_->line, window));
+}
+
+bool Problem::is_at_each_instant() const { return impl_->each_instant != nullptr; }
 
 void Problem::constrain_at_least(std::string name, std::size_t least,
                                  const std::vector<std::function<void()>>& alternatives) {
@@ -34,6 +57,7 @@ void Problem::constrain_at_least(std::string name, std::size_t least,
 
 void Problem::constrain_derivative(std::string name, TubeVariable x, const VectorExpr& f) {
   impl_->need_line();
+  impl_->require_all_time("a derivative");
   require(f.size() == x.dim, "Problem: der of a tube of dimension {} and {} components", x.dim, f.size());
   std::vector<NodeId> nodes;
   std::vector<std::size_t> components;
@@ -47,6 +71,7 @@ void Problem::constrain_derivative(std::string name, TubeVariable x, const Vecto
 
 void Problem::constrain_derivative(std::string name, TubeVariable x, std::size_t component, Expr f) {
   impl_->need_line();
+  impl_->require_all_time("a derivative");
   require(component < x.dim, "Problem: component {} of {}", component + 1, x.dim);
   impl_->state(make_derivative_contractor(std::move(name), x.id, x.dim, {component}, impl_->dag,
                                           {impl_->node_of(f)}, impl_->context()));
@@ -87,11 +112,18 @@ SetVariable Problem::refined(SetVariable set, SetVariable like) {
   const auto known = impl_->refinements.find({set.id, fine.precision()});
   if (known != impl_->refinements.end()) return known->second;
   const std::string name = impl_->graph.variable(set.id).name() + " refined";
-  const SetVariable made = hidden_set(name, like);
-  // It is the same set whatever holds: no alternative owns this.
-  impl_->graph.add_contractor(make_refinement_contractor(impl_->graph.variable(made.id).name(), made.id,
-                                                         set.id, 1 << (exponent - 1)));
-  impl_->refinements.emplace(std::pair(set.id, fine.precision()), made);
+  SetVariable made{};
+  const auto state = [&] {
+    made = hidden_set(name, like);
+    impl_->state(make_refinement_contractor(impl_->graph.variable(made.id).name(), made.id, set.id,
+                                            1 << (exponent - 1)));
+  };
+  if (impl_->is_own_to_an_instant(set.id)) {
+    state();
+  } else {
+    impl_->define(state);
+    impl_->refinements.emplace(std::pair(set.id, fine.precision()), made);
+  }
   return made;
 }
 

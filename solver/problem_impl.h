@@ -9,12 +9,28 @@
 
 #include "domains/check.h"
 #include "solver/contractors/alternatives.h"
+#include "solver/contractors/each_instant.h"
 #include "solver/contractors/inputs.h"
 #include "solver/expression/operators.h"
 #include "solver/problem.h"
 #include "solver/problem_run.h"
 
 namespace hcsp {
+
+// A member that has another value for a while.
+template <class Member>
+class Meanwhile {
+ public:
+  Meanwhile(Member& member, Member value)
+      : member_(member), before_(std::exchange(member, std::move(value))) {}
+  Meanwhile(const Meanwhile&) = delete;
+  Meanwhile& operator=(const Meanwhile&) = delete;
+  ~Meanwhile() { member_ = std::move(before_); }
+
+ private:
+  Member& member_;
+  Member before_;
+};
 
 struct Problem::Impl {
   std::string name;
@@ -34,13 +50,16 @@ struct Problem::Impl {
   std::map<std::pair<VariableId, double>, VariableId> delayed;       // tubes, by the delay
   std::map<std::pair<VariableId, double>, SetVariable> refinements;  // by the finer grid's precision
   std::set<std::string> hidden_names;
+  std::shared_ptr<const ItemSet> window;          // the items at hand; null for all
+  std::shared_ptr<InstantAtHand> each_instant{};  // of at_each_instant()
 
-  [[nodiscard]] Inputs::Context context() const { return {line, sampled, motions}; }
+  [[nodiscard]] Inputs::Context context() const { return {line, sampled, motions, window}; }
 
   template <Lattice D>
   VariableId add(const std::string& variable, D domain, DomainKind kind, bool hidden = false) {
     const VariableId id = graph.add_variable(variable, std::move(domain), hidden);
     kinds.push_back(kind);
+    if (each_instant != nullptr) each_instant->own.insert(id);
     return id;
   }
 
@@ -88,33 +107,40 @@ struct Problem::Impl {
   // What an alternative says of a derivative, or of a tube at an instant, holds there alone.
   ContractorGraph alternative_of(const std::function<void()>& stated) {
     std::vector<std::unique_ptr<Contractor>> contractors;
-    auto* outer = std::exchange(alternative, &contractors);
-    const auto outer_motions = std::exchange(motions, std::make_shared<Motions>());
-    const auto outer_values = values;
-    const auto outer_integrals = integrals;
-    const auto restore = [&] {
-      values = outer_values;
-      integrals = outer_integrals;
-      alternative = outer;
-      motions = outer_motions;
-    };
-    try {
+    {
+      const Meanwhile its_own(alternative, &contractors);
+      const Meanwhile its_motions(motions, std::make_shared<Motions>());
+      const Meanwhile known_values(values, decltype(values)(values));
+      const Meanwhile known_integrals(integrals, decltype(integrals)(integrals));
       stated();
-    } catch (...) {
-      restore();
-      throw;
     }
-    restore();
     return graph.part(std::move(contractors));
   }
 
-  [[nodiscard]] std::optional<ItemSet> items_of(const std::optional<Window>& window) const {
-    if (!window) return {};
+  [[nodiscard]] std::shared_ptr<const ItemSet> items_of(const Window& span) const {
     need_line();
-    const auto from = line->gate_at(window->from), to = line->gate_at(window->to);
+    const auto from = line->gate_at(span.from), to = line->gate_at(span.to);
     require(from && to && *from <= *to, "Problem: [{}, {}] is no span between instants of the time line",
-            window->from, window->to);
-    return ItemSet::range(2 * *from, 2 * *to);
+            span.from, span.to);
+    return std::make_shared<const ItemSet>(ItemSet::range(2 * *from, 2 * *to));
+  }
+
+  // Runs body() as if outside all alternatives, instants and windows: what it states is a definition, which
+  // is what it is whatever else holds.
+  template <class Body>
+  void define(Body body) {
+    const Meanwhile no_alternative(alternative, static_cast<decltype(alternative)>(nullptr));
+    const Meanwhile all_time(window, decltype(window)());
+    const Meanwhile no_instant(each_instant, decltype(each_instant)());
+    body();
+  }
+
+  [[nodiscard]] bool is_own_to_an_instant(VariableId v) const {
+    return each_instant != nullptr && each_instant->own.contains(v);
+  }
+
+  void require_all_time(std::string_view what) const {
+    require(each_instant == nullptr, "Problem: {} speaks of more than the instant at hand", what);
   }
 
   VectorExpr inputs(Input::Kind kind, VariableId variable, std::size_t dim, std::size_t gate = 0) {

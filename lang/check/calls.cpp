@@ -66,7 +66,8 @@ Type Checker::check_function_call(const Expr& expr, const Symbol& function) {
   const std::size_t count = function.as<FunctionItem>()->parameters.size();
   if (!check_count(expr, function.name.text, count, count) || bad || function.type.is_error()) return {};
   if (function.takes_instants) ++instants_to_find_;
-  if (function.type.is(Type::Kind::boolean) && instants_to_find_ != instants_before) model_.set_stated(expr);
+  const bool at_instants = function.type.is(Type::Kind::boolean) && instants_to_find_ != instants_before;
+  if (at_instants || function.states) model_.set_stated(expr);
   Type type = function.type;
   for (std::size_t i = 0; i < arguments.size(); ++i) {
     const Type& wanted = function.parameters[i];
@@ -77,7 +78,7 @@ Type Checker::check_function_call(const Expr& expr, const Symbol& function) {
                             function.name.text));
       return {};
     }
-    if (model_.is_stated(*expr.operands[i + 1]))
+    if (model_.is_stated(*expr.operands[i + 1]) && arguments[i].tube)
       return not_supported(expr.operands[i + 1]->range, "this relation as an argument of a function");
     type.tube = type.tube || arguments[i].tube;
     // What depends on parameters alone is known once the arguments are.

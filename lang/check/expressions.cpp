@@ -263,7 +263,7 @@ Type Checker::check_conditional(const Expr& expr) {
   } else if (at_instants) {
     // What is not chosen need not exist, but a tube at an instant to be found is stated to.
     return not_supported(expr.range, "a choice between tubes at instants to be found");
-  } else if (model_.is_stated(*expr.operands[0])) {
+  } else if (model_.is_stated(*expr.operands[0]) && condition.tube) {
     return not_supported(expr.operands[0]->range, "this relation as the condition of a number");
   }
   return type;

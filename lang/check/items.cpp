@@ -239,6 +239,7 @@ void Checker::check_function(Symbol& symbol, const FunctionItem& item) {
     return;
   }
   symbol.type = body;
+  symbol.states = model_.is_stated(*item.body);
 }
 
 // A domain is a constant, or computed from the time alone, which the compiler sees.

@@ -25,7 +25,7 @@ class Compiler {
         further_(std::move(further)),
         problem_(std::make_unique<Problem>(model.name)),
         unknowns_{*problem_, {}},
-        evaluator_(model, unknowns_) {}
+        evaluator_(model, unknowns_, [this](const Expr& expr) { return truth_of(expr); }) {}
 
   std::unique_ptr<Problem> run();
   /// Those that the constraints turned out to need besides.
@@ -57,7 +57,7 @@ class Compiler {
   /// States a relation, or that it does not hold.
   void state(const Expr& expr, bool wanted = true);
   void state_relation(const Expr& expr, bool wanted);
-  void state_truth(const Term& relation, const std::optional<Window>& window = {});
+  void state_truth(const Term& relation);
   bool state_equality(const Expr& expr);
   void state_derivative(const Expr& derivative, const Expr& value);
   void state_range(const Expr& range, const Expr& value);
@@ -76,18 +76,18 @@ class Compiler {
     std::vector<int> at = {};
   };
   void state_failure_at_instants(const Expr& expr);
-  void refuse_choice(const Expr& expr) {
-    not_supported(expr.range, "a choice at every instant between relations that are no values");
-  }
   [[nodiscard]] bool chooses_anew(const Expr& expr) const;
+  void state_at_each_instant(const Expr& expr, bool wanted);
+  void state_call(const Expr& expr, const Symbol& function, bool wanted);
+  Value truth_of(const Expr& expr);
   void state_logic(const Expr& expr, bool wanted);
   void state_quantified(const Expr& expr, bool wanted);
   void state_for_each(const Expr& expr, bool wanted);
   void state_at_least(const Expr& expr, int count, std::vector<Alternative> alternatives);
   void state_over_time(const Expr& expr, bool wanted);
-  void state_always(const Expr& expr, bool wanted, const std::optional<Window>& window);
-  void state_sometime(const Expr& expr, bool wanted, const std::optional<Window>& window);
-  void state_at_an_instant(const Expr& expr, bool wanted, const std::optional<Window>& window);
+  void state_always(const Expr& body, bool wanted);
+  void state_sometime(const Expr& body, bool wanted);
+  void state_at_an_instant(const Expr& expr, bool wanted);
   std::optional<Window> window_of(const Expr& expr);
   [[nodiscard]] bool connects(const Expr& expr) const;
 
@@ -103,7 +103,7 @@ class Compiler {
   void state_meets(const Expr& a, const Expr& b, bool wanted);
   void state_point_in_set(const Expr& point, const Expr& set, bool wanted);
   void collect_sets(const Expr& expr, std::vector<NamedSet>& found);
-  void refuse_sets_over_time(const Expr& expr);
+  bool speaks_of_each_instant(const Expr& expr, const Expr& a, const Expr& b, bool wanted) const;
   std::optional<SetVariable> grid_of(const Expr& a, const Expr& b);
   std::optional<SetTerm> set_term(const Expr& expr, SetVariable grid, bool meet_over_time = false);
   std::optional<SetVariable> set_variable(const Expr& expr, SetVariable grid);
@@ -134,7 +134,11 @@ class Compiler {
   Evaluator evaluator_;
   std::unordered_map<const Symbol*, TubePlan> plans_;
   std::uint32_t alternatives_ = 0;  // how many were stated, each within those around it
-  bool at_every_instant_ = false;   // what is stated holds, or does not, at every instant on its own
+  // What is stated of the time at hand: it is one truth, that it holds at every instant; it holds, or does
+  // not, at every instant; or at the one instant of at_each_instant().
+  enum class OfTime : std::uint8_t { one_truth, every_instant, this_instant };
+  OfTime of_time_ = OfTime::one_truth;
+  bool in_zone_ = false;  // what is evaluated speaks of the point of a zone
   std::unordered_map<const Expr*, std::optional<Box>> domains_;  // as they were stated
   std::string constraint_;                                       // the name of the constraint at hand
   std::unordered_map<std::string, int> names_;  // of all constraints: how often they were asked for

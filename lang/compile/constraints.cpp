@@ -41,11 +41,11 @@ std::optional<Term> Compiler::relation_of(const Expr& expr, bool wanted) {
 }
 
 // A constant that is false is a relation that no unknowns satisfy.
-void Compiler::state_truth(const Term& relation, const std::optional<Window>& window) {
+void Compiler::state_truth(const Term& relation) {
   const auto known = Evaluator::truth(relation);
   if (known && *known) return;
   const hcsp::Expr expr = Evaluator::expression(*problem_, relation);
-  problem_->constrain(next_name(), known ? expr == problem_->constant(Interval(1.0)) : expr, window);
+  problem_->constrain(next_name(), known ? expr == problem_->constant(Interval(1.0)) : expr);
 }
 
 // A derivative or a range alone on one side.
@@ -55,6 +55,10 @@ bool Compiler::state_equality(const Expr& expr) {
     const Expr& a = *expr.operands[side];
     const Expr& b = *expr.operands[1 - side];
     if (calls(a, BuiltIn::der)) {
+      if (of_time_ == OfTime::this_instant) {
+        not_supported(expr.range, "a derivative within a choice at every instant");
+        return true;
+      }
       state_derivative(a, b);
       return true;
     }
@@ -95,7 +99,9 @@ void Compiler::state_range(const Expr& range, const Expr& value) {
     delta = norm(a - x);
   } else {
     evaluator_.bind(model_.reference(range).local, Value(a.begin(), a.end()));
+    const bool outer = std::exchange(in_zone_, true);
     const Value body = evaluator_.value(*range.operands[0]);
+    in_zone_ = outer;
     if (body.empty()) return;
     delta = Evaluator::expression(*problem_, body.front());
   }

@@ -35,17 +35,19 @@ void Compiler::state(const Expr& written, bool wanted) {
   const Expr& expr = model_.unfold(written);
   const bool is_conjunction = expr.kind == ExprKind::binary && expr.op == Operator::logical_and;
   // Of what holds one by one at every instant, not all hold when one of them fails at some instant.
-  if (!model_.is_stated(expr) && (wanted || !evaluator_.varies(expr) || at_every_instant_))
-    return state_relation(expr, wanted);
+  const bool one_truth = evaluator_.varies(expr) && of_time_ == OfTime::one_truth;
+  if (!model_.is_stated(expr) && (wanted || !one_truth)) return state_relation(expr, wanted);
   if (connects(expr) || is_conjunction) return state_logic(expr, wanted);
-  if (!wanted && evaluator_.varies(expr) && !at_every_instant_) {
-    if (model_.is_stated(expr)) return state_at_an_instant(expr, false, {});
+  if (!wanted && one_truth) {
+    if (model_.is_stated(expr)) return guarded(expr.range, [&] { state_at_an_instant(expr, false); });
     if (const auto relation = relation_of(expr, false))
       guarded(expr.range, [&] {
         problem_->constrain_sometime(next_name(), Evaluator::expression(*problem_, *relation));
       });
     return;
   }
+  const Symbol* callee = expr.kind == ExprKind::call ? model_.reference(*expr.operands[0]).symbol : nullptr;
+  if (callee != nullptr && callee->states) return state_call(expr, *callee, wanted);
   const Type side = expr.operands.size() > 1 ? model_.type(*expr.operands[1]) : Type{};
   const bool of_sets = calls(expr, BuiltIn::disjoint) || calls(expr, BuiltIn::meets) ||
                        calls(expr, BuiltIn::subset) || side.is(Type::Kind::set);
@@ -97,7 +99,8 @@ void Compiler::state_logic(const Expr& expr, bool wanted) {
   if (expr.kind == ExprKind::quantified) return state_quantified(expr, wanted);
   if (expr.kind == ExprKind::unary) return state(*expr.operands[0], !wanted);
   const bool is_conjunction = expr.op == (wanted ? Operator::logical_and : Operator::logical_or);
-  if (at_every_instant_ && !is_conjunction && chooses_anew(expr)) return refuse_choice(expr);
+  if (of_time_ == OfTime::every_instant && !is_conjunction && chooses_anew(expr))
+    return state_at_each_instant(expr, wanted);
   if (expr.kind == ExprKind::call) {
     const auto least = evaluator_.whole(*expr.operands[1]);
     std::vector<Alternative> alternatives;
@@ -142,8 +145,8 @@ void Compiler::state_quantified(const Expr& expr, bool wanted) {
     return true;
   });
   if (!bound) return;
-  if (at_every_instant_ && evaluator_.varies(*expr.operands[0]) && alternatives.size() > 1)
-    return refuse_choice(expr);
+  if (of_time_ == OfTime::every_instant && evaluator_.varies(*expr.operands[0]) && alternatives.size() > 1)
+    return state_at_each_instant(expr, wanted);
   int least = 1;
   if (expr.quantifier == Quantifier::at_least) {
     const auto count = evaluator_.whole(*expr.operands[1]);
@@ -196,47 +199,79 @@ std::optional<Window> Compiler::window_of(const Expr& expr) {
 
 // The quantifier binds t anew, whatever instant stands around it.
 void Compiler::state_over_time(const Expr& expr, bool wanted) {
+  if (of_time_ == OfTime::this_instant)
+    return not_supported(expr.range, "a quantifier over time within a choice at every instant");
   const std::size_t before = model_.diagnostics().count();
   const std::optional<Window> window = window_of(expr);
   if (model_.diagnostics().count() != before) return;
-  evaluator_.at({}, [&] {
-    if ((expr.quantifier == Quantifier::forall) == wanted) {
-      state_always(expr, wanted, window);
-    } else {
-      state_sometime(expr, wanted, window);
-    }
-  });
+  const bool always = (expr.quantifier == Quantifier::forall) == wanted;
+  const auto state_body = [&] {
+    const Expr& body = model_.unfold(*expr.operands[0]);
+    always ? state_always(body, wanted) : state_sometime(body, wanted);
+  };
+  guarded(expr.range, [&] { problem_->during(window, [&] { evaluator_.at({}, state_body); }); });
 }
 
-void Compiler::state_always(const Expr& expr, bool wanted, const std::optional<Window>& window) {
-  const Expr& body = model_.unfold(*expr.operands[0]);
-  if (!model_.is_stated(body)) {
-    if (const auto relation = relation_of(body, wanted)) state_truth(*relation, window);
-    return;
-  }
-  if (window) return not_supported(expr.bindings[0].domain->range, "a span of time for this relation");
-  const bool outer = std::exchange(at_every_instant_, true);
+void Compiler::state_always(const Expr& body, bool wanted) {
+  const OfTime outer = std::exchange(of_time_, OfTime::every_instant);
   state(body, wanted);
-  at_every_instant_ = outer;
+  of_time_ = outer;
 }
 
-void Compiler::state_sometime(const Expr& expr, bool wanted, const std::optional<Window>& window) {
-  const Expr& body = model_.unfold(*expr.operands[0]);
-  if (model_.is_stated(body)) return state_at_an_instant(body, wanted, window);
+void Compiler::state_sometime(const Expr& body, bool wanted) {
+  if (model_.is_stated(body)) return state_at_an_instant(body, wanted);
   const auto relation = relation_of(body, wanted);
   if (!relation) return;
   if (Evaluator::truth(*relation)) return state_truth(*relation);
-  guarded(expr.range, [&] {
-    problem_->constrain_sometime(next_name(), Evaluator::expression(*problem_, *relation), window);
-  });
+  problem_->constrain_sometime(next_name(), Evaluator::expression(*problem_, *relation));
 }
 
 // The relation holds, or does not, at an instant that is an unknown of its own.
-void Compiler::state_at_an_instant(const Expr& expr, bool wanted, const std::optional<Window>& window) {
+void Compiler::state_at_an_instant(const Expr& expr, bool wanted) {
+  const hcsp::Expr instant = problem_->instant(constraint_ + " instant");
+  evaluator_.at(instant, [&] { state(expr, wanted); });
+}
+
+// The relation holds, or does not, at each instant by itself: the general way, where no contractor speaks of
+// all instants at once.
+void Compiler::state_at_each_instant(const Expr& expr, bool wanted) {
   guarded(expr.range, [&] {
-    const hcsp::Expr instant = problem_->instant(constraint_ + " instant", window);
-    evaluator_.at(instant, [&] { state(expr, wanted); });
+    problem_->at_each_instant(next_name(), [&] {
+      const OfTime outer = std::exchange(of_time_, OfTime::this_instant);
+      state(expr, wanted);
+      of_time_ = outer;
+    });
   });
+}
+
+// ---- Functions, and relations as values.
+
+// At a call the arguments are taken at one instant: the body does not tell which of them vary.
+void Compiler::state_call(const Expr& expr, const Symbol& function, bool wanted) {
+  if (of_time_ != OfTime::this_instant && evaluator_.varies(expr)) return state_at_each_instant(expr, wanted);
+  if (evaluator_.bind_arguments(expr, function)) state(*function.as<FunctionItem>()->body, wanted);
+}
+
+// A Boolean unknown that is true where the relation holds, and false where it does not.
+Value Compiler::truth_of(const Expr& expr) {
+  const bool at_one_instant = !evaluator_.varies(expr) || of_time_ == OfTime::this_instant;
+  if (in_zone_ || !at_one_instant) {
+    not_supported(expr.range, in_zone_ ? "this relation within a zone" : "this relation within another");
+    return {};
+  }
+  Value truth;
+  guarded(expr.range, [&] {
+    const hcsp::Expr holds = (*problem_)(problem_->hidden_boolean(constraint_ + " truth"));
+    const auto alternative = [&](bool wanted) {
+      return [&, wanted] {
+        problem_->constrain(next_name(), wanted ? holds : !holds);
+        state(expr, wanted);
+      };
+    };
+    problem_->constrain_at_least(next_name(), 1, {alternative(true), alternative(false)});
+    truth = {holds};
+  });
+  return truth;
 }
 
 }  // namespace hcsp::lang

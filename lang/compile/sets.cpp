@@ -18,6 +18,8 @@ SetTerm complement(SetTerm term) { return {term.set, !term.complemented}; }
 void Compiler::state_set_relation(const Expr& expr, bool wanted) {
   const bool is_call = expr.kind == ExprKind::call;
   const Expr &a = *expr.operands[is_call ? 1 : 0], &b = *expr.operands[is_call ? 2 : 1];
+  if (of_time_ != OfTime::this_instant && speaks_of_each_instant(expr, a, b, wanted))
+    return state_at_each_instant(expr, wanted);
   if (calls(expr, BuiltIn::disjoint)) return state_disjoint(a, b, wanted);
   if (calls(expr, BuiltIn::meets)) return state_meets(a, b, wanted);
   if (is_call || expr.op == Operator::subset) return state_subset(a, b, wanted);
@@ -51,7 +53,6 @@ void Compiler::state_set_equality(const Expr& a, const Expr& b, bool wanted) {
 void Compiler::state_subset(const Expr& a, const Expr& b, bool wanted) {
   const auto grid = grid_of(a, b);
   if (!grid) return;
-  if (!wanted && (evaluator_.varies(a) || evaluator_.varies(b))) return refuse_sets_over_time(a);
   guarded(a.range, [&] {
     const auto part = set_term(a, *grid), whole = part ? set_term(b, *grid, true) : std::nullopt;
     if (!whole) return;
@@ -92,7 +93,6 @@ void Compiler::state_meets(const Expr& a, const Expr& b, bool wanted) {
       if (set) problem_->constrain_meets(next_name(), *builder, *set);
       return;
     }
-    if (evaluator_.varies(a) || evaluator_.varies(b)) return refuse_sets_over_time(a);
     const auto one = set_term(a, *grid), other = one ? set_term(b, *grid) : std::nullopt;
     if (other) problem_->constrain_common_point(next_name(), *one, *other);
   });
@@ -135,18 +135,20 @@ void Compiler::collect_sets(const Expr& written, std::vector<NamedSet>& found) {
   });
 }
 
-void Compiler::refuse_sets_over_time(const Expr& expr) {
-  not_supported(expr.range, "this relation between sets that vary with time");
+// Whether a relation says nothing of what its sets are over time: both of them vary, one is more than a zone,
+// or a point is asked for at every instant, where but a plain zone is felt over time.
+bool Compiler::speaks_of_each_instant(const Expr& expr, const Expr& a, const Expr& b, bool wanted) const {
+  if (!evaluator_.varies(a) && !evaluator_.varies(b)) return false;
+  if (model_.type(a).is(Type::Kind::real)) return evaluator_.varies(b);
+  if (evaluator_.varies(a) && evaluator_.varies(b)) return true;
+  const Expr& varying = model_.unfold(evaluator_.varies(a) ? a : b);
+  if (calls(expr, BuiltIn::meets) != wanted) return !is_zone(varying) && !calls(varying, BuiltIn::complement);
+  return calls(expr, BuiltIn::subset) || expr.op == Operator::subset || varying.kind != ExprKind::builder;
 }
 
 // The finest of the sets that the two sides of a relation name; all are on its grid, or on coarser ones that
-// it refines. What the sides are at one instant says nothing of what they are over time: one of them may
-// vary.
+// it refines.
 std::optional<SetVariable> Compiler::grid_of(const Expr& a, const Expr& b) {
-  if (&a != &b && evaluator_.varies(a) && evaluator_.varies(b)) {
-    refuse_sets_over_time(a);
-    return {};
-  }
   std::vector<NamedSet> named;
   const std::size_t before = model_.diagnostics().count();
   collect_sets(a, named);
@@ -288,13 +290,19 @@ std::optional<SetBuilder> Compiler::zone_of(const Expr& written, bool wanted) {
   const Expr* expr = &model_.unfold(written);
   if (expr->kind == ExprKind::quantified) {  // it binds t anew, whatever instant stands around it
     std::optional<SetBuilder> zone;
+    if (of_time_ == OfTime::this_instant) {
+      not_supported(expr->range, "a set over time within a choice at every instant");
+      return {};
+    }
     evaluator_.at({}, [&] { zone = zone_of(*expr->operands[0], wanted); });
     return zone;
   }
   const std::uint32_t dim = model_.type(*expr).dim;
   const VectorExpr point = problem_->point(dim);
   evaluator_.bind(model_.reference(*expr).local, Value(point.begin(), point.end()));
+  const bool outer = std::exchange(in_zone_, true);
   const auto relation = relation_of(*expr->operands[0], wanted);
+  in_zone_ = outer;
   if (!relation) return {};
   const hcsp::Expr zone = Evaluator::expression(*problem_, *relation);
   const bool is_constant = Evaluator::truth(*relation).has_value();

@@ -20,21 +20,25 @@ Value Evaluator::call(const Expr& expr) {
 }
 
 Value Evaluator::function_call(const Expr& expr, const Symbol& function) {
-  const FunctionItem& item = *function.as<FunctionItem>();
+  if (!bind_arguments(expr, function)) return {};
+  return value(*function.as<FunctionItem>()->body);
+}
+
+bool Evaluator::bind_arguments(const Expr& call, const Symbol& function) {
   std::vector<Value> arguments;
-  for (std::size_t i = 1; i < expr.operands.size(); ++i) {
-    arguments.push_back(value(*expr.operands[i]));
-    if (arguments.back().empty()) return {};
+  for (std::size_t i = 1; i < call.operands.size(); ++i) {
+    arguments.push_back(value(*call.operands[i]));
+    if (arguments.back().empty()) return false;
   }
   // No function calls itself, so its locals are free.
   std::uint32_t local = function.first_local;
   for (Value& argument : arguments) bind(local++, std::move(argument));
-  for (const Local& where : item.locals) {
+  for (const Local& where : function.as<FunctionItem>()->locals) {
     Value found = value(*where.value);
-    if (found.empty()) return {};
+    if (found.empty()) return false;
     bind(local++, std::move(found));
   }
-  return value(*item.body);
+  return true;
 }
 
 Value Evaluator::at_instant(const Expr& expr) {
@@ -53,6 +57,7 @@ Instant Evaluator::instant_of(const Expr& expr) {
   const Value written = value(expr);
   if (written.empty()) return {};
   if (const auto* found = std::get_if<hcsp::Expr>(&written.front())) {
+    if (!require_all_time(expr, "an instant to be found")) return {};
     instants_to_find_.push_back(*found);
     return *found;
   }
@@ -68,9 +73,18 @@ Instant Evaluator::delayed(const Expr& instant) {
   return Delay{(outer == nullptr ? 0.0 : outer->duration) + further};
 }
 
+// What speaks of more than one instant has no place where the relations at each instant stand by themselves.
+bool Evaluator::require_all_time(const Expr& expr, std::string_view what) {
+  if (!unknowns_->problem.is_at_each_instant()) return true;
+  model_.diagnostics().report(Code::not_supported, expr.range,
+                              fmt::format("{} within a choice at every instant", what));
+  return false;
+}
+
 // From the start where that is known, to the end; else backward from the end, or from the time line's start.
 Value Evaluator::integral(const Expr& expr) {
   takes_integrals_ = true;
+  if (!require_all_time(expr, "an integral")) return {};
   const Instant from = instant_of(*expr.operands[2]), to = instant_of(*expr.operands[3]);
   Value integrand;
   at({}, [&] { integrand = value(*expr.operands[1]); });

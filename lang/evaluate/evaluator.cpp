@@ -110,21 +110,21 @@ hcsp::Expr Evaluator::expression(Problem& problem, const Term& term) {
 
 // What is stated as a constraint is no value: a connective of it, a relation between sets, a derivative. A
 // relation between reals at an instant to be found is stated, but has a value.
-bool Evaluator::has_value(const Expr& expr) {
+bool Evaluator::has_value(const Expr& expr) const {
   if (!model_.is_stated(expr) || expr.kind == ExprKind::name) return true;
-  if (expr.kind == ExprKind::binary && !is_logical(expr.op)) {
-    const Type side = model_.type(*expr.operands[1]);
-    if (side.is(Type::Kind::real) || side.is(Type::Kind::domain)) return true;
+  if (expr.kind == ExprKind::call) {
+    const Reference callee = model_.reference(*expr.operands[0]);
+    return callee.built_in == BuiltIn::none && !(callee.symbol != nullptr && callee.symbol->states);
   }
-  const bool is_function =
-      expr.kind == ExprKind::call && model_.reference(*expr.operands[0]).built_in == BuiltIn::none;
-  if (is_function) return true;
-  model_.diagnostics().report(Code::not_supported, expr.range, "this relation within another");
-  return false;
+  if (expr.kind != ExprKind::binary || is_logical(expr.op)) return false;
+  const Type side = model_.type(*expr.operands[1]);
+  const bool of_reals = side.is(Type::Kind::real) || side.is(Type::Kind::domain);
+  return of_reals && !model_.is_stated(*expr.operands[0]) && !model_.is_stated(*expr.operands[1]);
 }
 
 Value Evaluator::value(const Expr& expr) {
-  if (!take_step(expr) || !has_value(expr)) return {};
+  if (!take_step(expr)) return {};
+  if (!has_value(expr)) return truth_of_ ? truth_of_(expr) : Value{};
   ++depth_;
   Value found = value_of_kind(expr);
   --depth_;

@@ -46,7 +46,9 @@ struct Unknowns {
 class Evaluator {
  public:
   explicit Evaluator(Model& model);
-  Evaluator(Model& model, Unknowns& unknowns) : model_(model), unknowns_(&unknowns) {}
+  /// `truth_of` gives a relation that is stated as a constraint a value; none after a report.
+  Evaluator(Model& model, Unknowns& unknowns, std::function<Value(const Expr&)> truth_of)
+      : model_(model), unknowns_(&unknowns), truth_of_(std::move(truth_of)) {}
 
   // Constants; what is not one is a mistake of the caller.
   std::optional<Number> number(const Expr& expr);
@@ -81,6 +83,8 @@ class Evaluator {
     std::size_t dim;
   };
   std::optional<TubeComponents> tube(const Expr& expr);
+  /// Binds the parameters and locals of a function as a call of it says; false after a report.
+  bool bind_arguments(const Expr& call, const Symbol& function);
   /// Binds the whole numbers of an expression to some values.
   void bind_numbers(const Expr& expr, const std::vector<int>& at);
   /// Runs body() with tubes taken at an instant.
@@ -154,6 +158,7 @@ class Evaluator {
     return std::holds_alternative<std::monostate>(instant_) || std::holds_alternative<Delay>(instant_);
   }
   Value integral(const Expr& expr);
+  bool require_all_time(const Expr& expr, std::string_view what);
   Value built_in(const Expr& expr, BuiltIn function);
   Value data_value(const Expr& expr, BuiltIn function);
   Term scalar_function(BuiltIn function, const Term& a);
@@ -171,13 +176,14 @@ class Evaluator {
   bool take_step(const Expr& expr);
   /// Whether so many steps are left, which the caller is going to take.
   bool take_steps(const Expr& expr, std::int64_t count);
-  bool has_value(const Expr& expr);
+  [[nodiscard]] bool has_value(const Expr& expr) const;
 
   Model& model_;
   /// For constants that take an expression to tell, 3*sqrt(2) < 5 for one, where there is no other Problem.
   std::unique_ptr<Problem> scratch_;
   std::optional<Unknowns> none_;
   Unknowns* unknowns_ = nullptr;
+  std::function<Value(const Expr&)> truth_of_;
   std::unordered_map<std::uint32_t, Value> locals_;
   /// A definition has a value an instant.
   using DefinitionKey = std::tuple<const Symbol*, std::size_t, double>;

@@ -31,6 +31,7 @@ struct Symbol {
   Type type;                      ///< of the value; of a function, its result
   bool unknown = false;           ///< a parameter whose value is a domain: an unknown of that domain
   bool takes_instants = false;    ///< tubes at instants to be found occur in its definition
+  bool states = false;            ///< of a function: its body is stated as a constraint
   std::vector<Type> parameters;   ///< of a function
   std::uint32_t first_local = 0;  ///< of a function: its parameters' locals, then those of its where
   const Table* table = nullptr;   ///< of data; null when reading it failed

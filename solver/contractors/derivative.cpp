@@ -39,17 +39,24 @@ class DerivativeContractor final : public Contractor, public Motion {
  public:
   DerivativeContractor(const std::string& name, VariableId x, std::size_t dim,
                        std::vector<std::size_t> components, Program program, Inputs inputs,
-                       std::shared_ptr<const TimeLine> line)
+                       const Inputs::Context& context)
       : Contractor(name, name, Cost::linear, with(inputs.variables(), x), {x}),
         x_(x),
         f_depends_on_x_(std::count(inputs.variables().begin(), inputs.variables().end(), x) > 0),
-        line_(std::move(line)),
+        line_(context.line),
         program_(std::move(program)),
         inputs_(std::move(inputs)),
         evaluation_(program_, kLanes),
         components_(std::move(components)),
         slopes_(dim, std::vector<Interval>(line_->slices())),
-        steps_(slopes_) {}
+        steps_(slopes_) {
+    const auto in_window = [&](std::size_t k) {
+      return context.window == nullptr || context.window->contains(2 * k + 1);
+    };
+    while (first_ < line_->slices() && !in_window(first_)) ++first_;
+    end_ = first_;
+    while (end_ < line_->slices() && in_window(end_)) ++end_;
+  }
 
   void begin() override {
     for (auto& steps : steps_) std::fill(steps.begin(), steps.end(), Interval::entire());
@@ -108,7 +115,7 @@ class DerivativeContractor final : public Contractor, public Motion {
     };
     // An untimed f has one item, which stands for every slice.
     const ItemSet changed = inputs_.changed(access);
-    for (std::size_t k = 0; k < line_->slices(); ++k) {
+    for (std::size_t k = first_; k < end_; ++k) {
       if (!changed.contains(inputs_.timed() ? 2 * k + 1 : 0)) continue;
       slices.push_back(k);
       if (slices.size() == kLanes) flush();
@@ -152,18 +159,17 @@ class DerivativeContractor final : public Contractor, public Motion {
   // One sweep forward, one back, then the slices whose ends moved. `moved` grows as the sweep goes.
   template <class MeetAt>
   void sweep(const Tube& x, std::size_t c, ItemSet& moved, const MeetAt& meet_at) {
-    const std::size_t slices = line_->slices();
-    for (std::size_t k = 0; k < slices; ++k) {
+    for (std::size_t k = first_; k < end_; ++k) {
       const std::size_t before = 2 * k, slice = before + 1, after = before + 2;
       if (moved.contains(before) || moved.contains(slice))
         meet_at(after, up::add(x.at(c, before), steps_[c][k]));
     }
-    for (std::size_t k = slices; k-- > 0;) {
+    for (std::size_t k = end_; k-- > first_;) {
       const std::size_t before = 2 * k, slice = before + 1, after = before + 2;
       if (moved.contains(after) || moved.contains(slice))
         meet_at(before, up::sub(x.at(c, after), steps_[c][k]));
     }
-    for (std::size_t k = 0; k < slices && !x.is_empty(); ++k) {
+    for (std::size_t k = first_; k < end_ && !x.is_empty(); ++k) {
       const std::size_t before = 2 * k, slice = before + 1, after = before + 2;
       if (!moved.contains(before) && !moved.contains(slice) && !moved.contains(after)) continue;
       meet_at(slice, slice_hull(x.at(c, before), x.at(c, after), slopes_[c][k], duration(k)));
@@ -173,7 +179,7 @@ class DerivativeContractor final : public Contractor, public Motion {
   // x is continuous: at a gate it is the limit of what it is over the slices beside it.
   template <class MeetAt>
   void meet_gates_with_slices(const Tube& x, std::size_t c, const MeetAt& meet_at) {
-    for (std::size_t k = 0; k < line_->slices(); ++k) {
+    for (std::size_t k = first_; k < end_; ++k) {
       const Interval slice = x.at(c, 2 * k + 1);
       meet_at(2 * k, slice);
       meet_at(2 * k + 2, slice);
@@ -183,6 +189,7 @@ class DerivativeContractor final : public Contractor, public Motion {
   VariableId x_;
   bool f_depends_on_x_;
   std::shared_ptr<const TimeLine> line_;
+  std::size_t first_ = 0, end_ = 0;  // the slices at hand
   Program program_;
   Inputs inputs_;
   Evaluation evaluation_;
@@ -200,8 +207,8 @@ std::unique_ptr<Contractor> make_derivative_contractor(std::string name, Variabl
                                                        const Inputs::Context& context) {
   Program program(dag, f);
   Inputs inputs(program, context);
-  auto contractor = std::make_unique<DerivativeContractor>(
-      name, x, dim, std::move(components), std::move(program), std::move(inputs), context.line);
+  auto contractor = std::make_unique<DerivativeContractor>(name, x, dim, std::move(components),
+                                                           std::move(program), std::move(inputs), context);
   (*context.motions)[x].push_back(contractor.get());
   return contractor;
 }

@@ -9,7 +9,8 @@
 
 namespace hcsp {
 
-/// The contractor of der(x) == f for almost every t, x continuous: interval integration forward and backward
+/// The contractor of der(x) == f for almost every t of the context's window, a span between two instants, x
+/// continuous in it: interval integration forward and backward
 /// in time, gates and slices contracting each other. f(t) may be any value of its enclosure at each t, so
 /// over a slice of length dt the increment of x is in [f] dt (mean value theorem for absolutely continuous
 /// functions). x are some components of a tube of dimension `dim`, as many as f

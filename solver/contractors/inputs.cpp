@@ -62,11 +62,13 @@ ItemSet Inputs::changed(const Access& access) const {
   // A program of constants and the time alone has nothing that could change: look once.
   if (variables_.empty()) everywhere = true;
   if (everywhere) return in_window();
-  if (timed_ && window_) changed.meet(*window_);
+  if (timed_ && context_.window) changed.meet(*context_.window);
   return changed;
 }
 
-ItemSet Inputs::in_window() const { return timed_ && window_ ? *window_ : ItemSet::all(items()); }
+ItemSet Inputs::in_window() const {
+  return timed_ && context_.window ? *context_.window : ItemSet::all(items());
+}
 
 Interval Inputs::value(std::uint32_t i, std::size_t item) const {
   const Input& input = inputs_[i];

@@ -21,11 +21,9 @@ class Inputs {
     std::shared_ptr<const TimeLine> line;                 ///< null when the problem has no time
     std::shared_ptr<const std::set<VariableId>> sampled;  ///< the tubes that are known at their readings only
     std::shared_ptr<Motions> motions;                     ///< of the tubes; may still grow
+    std::shared_ptr<const ItemSet> window = {};           ///< the items that are at hand; null for all
   };
   Inputs(const Program& program, Context context);
-
-  /// Leaves only some items of a timed program to be looked at; an untimed one has no time to be outside.
-  void look_only_at(ItemSet window) { window_ = std::move(window); }
 
   /// The distinct variables among the inputs.
   [[nodiscard]] const std::vector<VariableId>& variables() const { return variables_; }
@@ -40,7 +38,7 @@ class Inputs {
 
   /// Looks the domains up; to be called first in every run of the contractor.
   void open(Access& access);
-  /// The items at hand: those of the window, or all.
+  /// The items at hand: those of the window, or all. An untimed program has no time to be outside.
   [[nodiscard]] ItemSet in_window() const;
   /// Those of them at which an input may have changed since the last run.
   [[nodiscard]] ItemSet changed(const Access& access) const;
@@ -85,7 +83,6 @@ class Inputs {
   std::vector<std::size_t> place_of_;  // by input: its variable's place
   std::vector<Place> places_;          // by variable
   std::vector<std::uint32_t> contractible_, point_;
-  std::optional<ItemSet> window_;
   bool timed_ = false;
 };
 

@@ -22,9 +22,9 @@ class MeetsContractor final : public Contractor {
         set_(set),
         inputs_(std::move(inputs)),
         feel_(std::move(feel)),
-        search_(inputs_.contractible().size()),
+        search_(std::max<std::size_t>(inputs_.contractible().size(), 1)),
         witnesses_(inputs_.items() * search_.faces(), kNoCell),
-        box_(inputs_.contractible().size()) {}
+        box_(search_.faces() / 2) {}
 
   void contract(Access& access) override {
     RoundUpward guard;
@@ -32,7 +32,7 @@ class MeetsContractor final : public Contractor {
     const SetInterval& set = access.domain<SetInterval>(set_);
     const bool set_changed = !access.delta<SetInterval>(set_).is_none();
     const ItemSet changed = inputs_.changed(access);
-    const ItemSet items = set_changed ? ItemSet::all(inputs_.items()) : changed;
+    const ItemSet items = set_changed ? inputs_.in_window() : changed;
     in_time_.clear();
     items.for_each([&](std::size_t item) {
       if (!inputs_.no_reading_at(item)) in_time_.push_back(item);
@@ -82,7 +82,7 @@ class MeetsContractor final : public Contractor {
   Feel feel_;
   SupportSearch search_;
   std::vector<CellIndex> witnesses_;  // by item and face: a cell that supported the face when last looked at
-  std::vector<Interval> box_;
+  std::vector<Interval> box_;         // of the contractible inputs; where there is none, any one interval
   std::vector<std::size_t> in_time_;  // the items at hand
 };
 
@@ -111,6 +111,7 @@ class RelationFeel {
     }
     evaluation_.forward_from_point();
     if (!evaluation_.backward(kTrue)) return false;
+    if (contractible_.empty()) result[0] = Interval::entire();
     for (std::size_t i = 0; i < contractible_.size(); ++i) result[i] = evaluation_.get(contractible_[i]);
     return true;
   }

@@ -82,11 +82,9 @@ class RelationContractor final : public Contractor {
 }  // namespace
 
 std::unique_ptr<Contractor> make_relation_contractor(std::string name, const Dag& dag, NodeId relation,
-                                                     const Inputs::Context& context,
-                                                     const std::optional<ItemSet>& window) {
+                                                     const Inputs::Context& context) {
   Program program(dag, {relation});
   Inputs inputs(program, context);
-  if (window) inputs.look_only_at(*window);
   Formula formula(dag, relation, program);
   return std::make_unique<RelationContractor>(name, std::move(program), std::move(inputs),
                                               std::move(formula));

@@ -67,7 +67,7 @@ class UnionContractor final : public Contractor {
     if (!set.is_empty() && !changed.is_none()) delta.join(keep_outer(access, set));
     if (!set.is_empty() && set.has_outside()) {
       const bool set_changed = !access.delta<SetInterval>(set_).is_none() || !delta.is_none();
-      leave_out(access, set, set_changed ? ItemSet::all(inputs_.items()) : changed);
+      leave_out(access, set, set_changed ? inputs_.in_window() : changed);
     }
     access.report<SetInterval>(set_, delta);
     inputs_.report(access);
@@ -134,23 +134,25 @@ class UnionContractor final : public Contractor {
   // S+ := S+ without what no item's zone may hold. Says nothing unless every item has a reading; where a zone
   // is unbounded, nothing about what is far from home.
   Region keep_outer(Access& access, SetInterval& set) {
-    std::vector<std::optional<Region>> bounds(inputs_.items());
-    bool bounded = true;
-    for (std::size_t item = 0; item < inputs_.items(); ++item) {
-      if (inputs_.no_reading_at(item) || access.should_stop()) return {};
+    std::vector<std::pair<std::size_t, Region>> zones;  // by item
+    bool bounded = true, readable = true;
+    inputs_.in_window().for_each([&](std::size_t item) {
+      readable = readable && !inputs_.no_reading_at(item) && !access.should_stop();
+      if (!readable) return;
       inputs_.load(hull_, item);
-      bounds[item] = zone_bounds(set.grid());
-      bounded = bounded && (!bounds[item] || is_addressable(*bounds[item]));
-    }
+      const auto bounds = zone_bounds(set.grid());
+      if (bounds) zones.emplace_back(item, *bounds);
+      bounded = bounded && (!bounds || is_addressable(*bounds));
+    });
+    if (!readable) return {};
     SetInterval painted(set.dim(), set.precision());
-    for (std::size_t item = 0; item < inputs_.items(); ++item) {
+    for (const auto& [item, bounds] : zones) {
       if (access.should_stop()) return {};
-      if (!bounds[item]) continue;
       zone_.at(set.grid(), inputs_, item, Brush::outer);
       if (auto zone = disc(set.grid(), Brush::outer)) {
-        painted.include(clipped(*bounds[item]), *zone);
+        painted.include(clipped(bounds), *zone);
       } else {
-        painted.include(clipped(*bounds[item]), zone_);
+        painted.include(clipped(bounds), zone_);
       }
     }
     if (bounded) return combine(set, painted, keep_painted, SetInterval::everywhere());

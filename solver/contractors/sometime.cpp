@@ -68,11 +68,9 @@ class SometimeContractor final : public Contractor {
 }  // namespace
 
 std::unique_ptr<Contractor> make_sometime_contractor(std::string name, const Dag& dag, NodeId relation,
-                                                     const Inputs::Context& context,
-                                                     const std::optional<ItemSet>& window) {
+                                                     const Inputs::Context& context) {
   const Program program(dag, {relation});
   Inputs inputs(program, context);
-  if (window) inputs.look_only_at(*window);
   Formula formula(dag, relation, program);
   return std::make_unique<SometimeContractor>(name, program, std::move(inputs), std::move(formula));
 }

@@ -22,6 +22,7 @@ std::size_t Access::place_in(VariableId id) const {
 }
 
 const Slot& Access::slot(VariableId id) const { return *run_.slots_[id]; }
+bool Access::changed(VariableId id) const { return run_.slots_[id]->changed(place_in(id)); }
 
 void Access::narrow(VariableId id, const Slot& bound) {
   Slot& slot = *run_.slots_[id];

@@ -67,6 +67,8 @@ class Access {
   void report(VariableId id, const typename D::Delta& change, std::optional<std::array<double, 2>> time = {});
   /// A domain, whatever its lattice.
   [[nodiscard]] const Slot& slot(VariableId id) const;
+  /// Whether anything changed in a variable since this contractor last ran. Only for one that it reads.
+  [[nodiscard]] bool changed(VariableId id) const;
   /// Meets a domain with another of its lattice, and reports that.
   void narrow(VariableId id, const Slot& bound);
   /// Tells that another run right away would change nothing: the contractor's own changes then do not wake

@@ -29,6 +29,8 @@ class Slot {
   virtual void hand_over(std::size_t reader) = 0;
   /// Forgets what came in for a reader.
   virtual void drop(std::size_t reader) = 0;
+  /// Whether the run at hand of a reader is shown any change.
+  [[nodiscard]] virtual bool changed(std::size_t reader) const = 0;
 };
 
 template <Lattice D>
@@ -59,6 +61,7 @@ class TypedSlot : public Slot {
     incoming[reader] = {};
   }
   void drop(std::size_t reader) override { incoming[reader] = {}; }
+  [[nodiscard]] bool changed(std::size_t reader) const override { return !pending[reader].is_none(); }
 
   D domain;
   // By reader: the changes since its last run, and those that the run at hand is shown. Two, because a

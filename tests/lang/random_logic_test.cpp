@@ -64,7 +64,7 @@ class RandomFormulas {
   Formula atom() {
     double c = limit(), d = limit();
     if (c > d) std::swap(c, d);
-    switch (below(16)) {
+    switch (below(22)) {
       case 0:
         return {fmt::format("p > {}", c), p_ > c};
       case 1:
@@ -97,6 +97,21 @@ class RandomFormulas {
         return {fmt::format("(exists(t) (x in {{a : real[1] | abs(a[1]) < {}}} and x(p) > {}))",
                             std::abs(c) + 0.25, d),
                 is_on_the_line(p_) && p_ > d};
+      case 15:  // choices that fall differently at each instant
+        return {fmt::format("(forall(t) (x in L or x >= {}))", c + 0.125), c + 0.125 <= 1};
+      case 16:
+        return {fmt::format("(forall(t) (not x in L or x < {}))", c + 0.25), 1 < c + 0.25};
+      case 17:
+        return {fmt::format("(forall(t) (meets({{a : real[1] | abs(a[1] - x) < 0.125}}, L) or x > {}))",
+                            c + 0.25),
+                c + 0.25 < 1.125};
+      case 18:  // relations as numbers, and within functions
+        return {fmt::format("(if p in L then 1 else 0 endif) + q > {}", c),
+                (-1 < p_ && p_ < 1 ? 1 : 0) + q_ > c};
+      case 19:
+        return {fmt::format("leaves(p, {})", c + 0.25), !(-1 < p_ && p_ < 1) || p_ < c + 0.25};
+      case 20:
+        return {fmt::format("leaves(x, {})", c + 0.25), 1 < c + 0.25};
       default:
         return {fmt::format("{{a : real[1] | abs(a[1]) < {}}} subset L", std::abs(c) + 0.25),
                 std::abs(c) + 0.25 <= 1};
@@ -117,6 +132,7 @@ TEST(RandomLogic, LosesNoSolutionAndEntailsNothingFalse) {
     const std::string text = fmt::format(
         "model m;\ntime t in [0, 2] step 0.25;\nvar x : tube real;\nvar p : real in {};\nvar q : real in "
         "{};\n"
+        "function leaves(a : real, c : real) : bool = not a in L or a < c;\n"
         "var b : bool;\nvar L : set real[1] precision 0.25;\nconstraint x(0) == 0 and der(x) == 1;\n"
         "constraint L == {{ a | abs(a[1]) <= 1 }};\nconstraint {}{};\nconstraint b iff {};\nsolve "
         "propagate;\n",
