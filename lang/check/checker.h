@@ -70,6 +70,7 @@ class Checker {
   Type check_logic(const Expr& expr, const Type& a, const Type& b);
   void lift(const Expr& expr, Type& type, bool conjunction);
   bool compares_truths(const Expr& expr);
+  bool is_truth(const Expr& expr);
   bool names_truth(std::string_view name);
   bool check_place(const Expr& written, const Type& base);
   Type check_tuple(const Expr& expr);

@@ -7,6 +7,11 @@ namespace hcsp::lang {
 
 namespace {
 
+bool is_relation(BuiltIn function) {
+  return function == BuiltIn::at_least || function == BuiltIn::disjoint || function == BuiltIn::meets ||
+         function == BuiltIn::subset;
+}
+
 /// The product of matrices and vectors; a vector is a row on the left and a column on the right.
 std::optional<Type> type_of_product(const Type& a, const Type& b) {
   Type type = combined(Type::Kind::real, 0, a, b);
@@ -74,31 +79,42 @@ Type Checker::check_unary(const Expr& expr) {
   return {};
 }
 
-// Whether an equality is one between truths, which `iff` is too.
+// Whether an equality is one between truths, which `iff` is too. The sides are not checked yet: how they are
+// depends on it.
 bool Checker::compares_truths(const Expr& expr) {
   if (expr.op != Operator::equal && expr.op != Operator::not_equal) return false;
-  return std::any_of(expr.operands.begin(), expr.operands.end(), [&](const Expr* side) {
-    switch (side->kind) {
-      case ExprKind::boolean:
-        return true;
-      case ExprKind::unary:
-      case ExprKind::binary:
-        return is_logical(side->op) || is_comparison(side->op) || side->op == Operator::in ||
-               side->op == Operator::subset;
-      case ExprKind::quantified:
-        return side->quantifier <= Quantifier::at_least;
-      case ExprKind::name:
-        return names_truth(side->text);
-      default:
-        return false;
-    }
-  });
+  return std::any_of(expr.operands.begin(), expr.operands.end(),
+                     [&](const Expr* side) { return is_truth(*side); });
 }
 
+bool Checker::is_truth(const Expr& expr) {
+  switch (expr.kind) {
+    case ExprKind::boolean:
+      return true;
+    case ExprKind::unary:
+    case ExprKind::binary:
+      return is_logical(expr.op) || is_comparison(expr.op) || expr.op == Operator::in ||
+             expr.op == Operator::subset;
+    case ExprKind::quantified:
+      return expr.quantifier <= Quantifier::at_least;
+    case ExprKind::conditional:
+      return is_truth(*expr.operands[1]);
+    case ExprKind::index:
+    case ExprKind::call:
+      return is_truth(*expr.operands[0]);
+    case ExprKind::name:
+      return names_truth(expr.text);
+    default:
+      return false;
+  }
+}
+
+// Of functions and arrays: whether their values are truths.
 bool Checker::names_truth(std::string_view name) {
   for (auto local = locals_.rbegin(); local != locals_.rend(); ++local) {
     if (local->name == name) return local->type.is(Type::Kind::boolean);
   }
+  if (const BuiltInFunction* function = find_built_in(name)) return is_relation(function->id);
   const auto found = model_.by_name.find(name);
   if (found == model_.by_name.end()) return false;
   ensure(*found->second);
