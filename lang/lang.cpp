@@ -72,6 +72,8 @@ void build(Compilation& compilation, const CompileOptions& options) {
   compiled.data_seconds = options.clock() - start;
   if (compilation.diagnostics.any() || compiled.problem == nullptr) return;
   compiled.name = model.name;
+  compiled.goal = model.goal->goal;
+  if (model.precision > 0) compiled.precision = model.precision;
   for (const Item& item : compilation.tree->items) {
     const auto* show = std::get_if<ShowItem>(&item.content);
     if (show == nullptr) continue;

@@ -38,7 +38,9 @@ struct CompileOptions {
 struct CompiledModel {
   std::string name;
   std::unique_ptr<Problem> problem;
-  std::vector<std::string> shown;  ///< what the model asks to show, in its order
+  SolveItem::Goal goal = SolveItem::Goal::propagate;
+  double precision = SearchOptions{}.precision;  ///< of the goals that have one
+  std::vector<std::string> shown;                ///< what the model asks to show, in its order
   /// From the first use of a data value to the finished Problem: part of what a result calls its seconds.
   double data_seconds = 0.0;
 };

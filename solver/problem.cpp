@@ -19,6 +19,7 @@ RealVariable Problem::real(std::string name, const Interval& domain) {
 IntegerVariable Problem::integer(std::string name, const Interval& domain) {
   const VariableId id = impl_->add(name, domain, DomainKind::real);
   impl_->shapes[id].scalar = Shape::Scalar::whole;
+  impl_->whole.insert(id);
   impl_->state(make_integrality_contractor(name + " is whole", id));
   return {id};
 }
@@ -31,6 +32,7 @@ BooleanVariable Problem::boolean(std::string name) {
 
 BooleanVariable Problem::hidden_boolean(std::string name) {
   const VariableId id = impl_->add(impl_->free_name(name), Interval(0.0, 1.0), DomainKind::real, true);
+  impl_->whole.insert(id);
   impl_->state(make_integrality_contractor(impl_->graph.variable(id).name(), id));
   return {id};
 }
@@ -190,10 +192,6 @@ void Problem::use_fast_paths(bool use) { impl_->fast_paths = use; }
 const std::string& Problem::name() const { return impl_->name; }
 const ContractorGraph& Problem::graph() const { return impl_->graph; }
 
-Result Problem::propagate(const PropagationOptions& options) {
-  return run_problem(
-      {impl_->name, impl_->graph, impl_->kinds, impl_->line, impl_->readings, impl_->shapes, impl_->vectors},
-      options);
-}
+Result Problem::propagate(const PropagationOptions& options) { return run_problem(impl_->view(), options); }
 
 }  // namespace hcsp

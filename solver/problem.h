@@ -19,6 +19,7 @@
 #include "solver/engine/propagation.h"
 #include "solver/expression/expr.h"
 #include "solver/result.h"
+#include "solver/search/branch_and_prune.h"
 
 namespace hcsp {
 
@@ -172,6 +173,13 @@ class Problem {
 
   /// Propagates to the fixed point. May be called again: each call starts from the declared domains.
   Result propagate(const PropagationOptions& options = {});
+
+  /// Whether all unknowns are reals, whole numbers and Booleans, and all constraints relations that hold or
+  /// not: what solve_all() takes.
+  [[nodiscard]] bool is_system() const;
+  /// Finds every solution (branch and prune). std::invalid_argument unless is_system() and the precision is
+  /// positive.
+  Result solve_all(const SearchOptions& options = {});
 
   [[nodiscard]] const std::string& name() const;
   [[nodiscard]] const ContractorGraph& graph() const;

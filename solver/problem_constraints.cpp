@@ -14,6 +14,7 @@
 namespace hcsp {
 
 void Problem::constrain(std::string name, Expr relation) {
+  if (impl_->alternative == nullptr) impl_->relations.push_back(relation.node());
   impl_->state(
       make_relation_contractor(std::move(name), impl_->dag, impl_->relation_of(relation), impl_->context()));
 }

@@ -50,6 +50,8 @@ struct Problem::Impl {
   std::map<std::pair<VariableId, double>, VariableId> delayed;       // tubes, by the delay
   std::map<std::pair<VariableId, double>, SetVariable> refinements;  // by the finer grid's precision
   std::set<std::string> hidden_names;
+  std::vector<NodeId> relations;                  // those that hold whatever else does
+  std::set<VariableId> whole;                     // the whole numbers and Booleans
   std::shared_ptr<const ItemSet> window;          // the items at hand; null for all
   std::shared_ptr<InstantAtHand> each_instant{};  // of at_each_instant()
 
@@ -178,6 +180,8 @@ struct Problem::Impl {
               "Problem: sets that meet in a relation need equal dimensions and precisions");
     }
   }
+
+  [[nodiscard]] ProblemView view() const { return {name, graph, kinds, line, readings, shapes, vectors}; }
 
   void need_line() const { require(line != nullptr, "Problem: set_time_line comes before the first tube"); }
 };

@@ -22,29 +22,8 @@ Domain domain_of(const ProblemView& problem, const Propagation& run, VariableId 
   return Interval::empty();
 }
 
-Box box_of(const Propagation& run, VariableId first, std::size_t dim) {
-  Box box(static_cast<Eigen::Index>(dim));
-  for (Eigen::Index i = 0; i < box.dim(); ++i)
-    box[i] = run.domain<Interval>(first + static_cast<VariableId>(i));
-  return box;
-}
-
 std::vector<ResultVariable> declared_domains(const ProblemView& problem, const Propagation& run) {
-  std::vector<ResultVariable> variables;
-  for (VariableId id = 0; id < problem.kinds.size();) {
-    const auto& variable = problem.graph.variable(id);
-    const auto vector = problem.vectors.find(id);
-    const bool is_vector = vector != problem.vectors.end();
-    if (!variable.hidden()) {
-      const auto shape = problem.shapes.find(id);
-      variables.push_back(
-          {is_vector ? vector->second.name : variable.name(),
-           is_vector ? Domain(box_of(run, id, vector->second.dim)) : domain_of(problem, run, id),
-           shape == problem.shapes.end() ? Shape{} : shape->second});
-    }
-    id += static_cast<VariableId>(is_vector ? vector->second.dim : 1);
-  }
-  return variables;
+  return declared_domains(problem, [&](VariableId id) { return domain_of(problem, run, id); });
 }
 
 // What people call a variable: a component by its vector's name.
@@ -187,6 +166,30 @@ void find_support(const ProblemView& problem, const PropagationOptions& options,
 }
 
 }  // namespace
+
+std::vector<ResultVariable> declared_domains(const ProblemView& problem,
+                                             const std::function<Domain(VariableId)>& domain_of) {
+  const auto box_of = [&](VariableId first, std::size_t dim) {
+    Box box(static_cast<Eigen::Index>(dim));
+    for (Eigen::Index i = 0; i < box.dim(); ++i)
+      box[i] = std::get<Interval>(domain_of(first + static_cast<VariableId>(i)));
+    return box;
+  };
+  std::vector<ResultVariable> variables;
+  for (VariableId id = 0; id < problem.kinds.size();) {
+    const auto& variable = problem.graph.variable(id);
+    const auto vector = problem.vectors.find(id);
+    const bool is_vector = vector != problem.vectors.end();
+    if (!variable.hidden()) {
+      const auto shape = problem.shapes.find(id);
+      variables.push_back({is_vector ? vector->second.name : variable.name(),
+                           is_vector ? Domain(box_of(id, vector->second.dim)) : domain_of(id),
+                           shape == problem.shapes.end() ? Shape{} : shape->second});
+    }
+    id += static_cast<VariableId>(is_vector ? vector->second.dim : 1);
+  }
+  return variables;
+}
 
 Result run_problem(const ProblemView& problem, const PropagationOptions& options) {
   Result result;

@@ -31,6 +31,11 @@ struct ProblemView {
   const std::map<VariableId, VectorGroup>& vectors;  // by their first components
 };
 
+/// The unknowns that are not hidden, in the order of declaration, each with the domain that is given for it;
+/// a vector with those of its components.
+std::vector<ResultVariable> declared_domains(const ProblemView& problem,
+                                             const std::function<Domain(VariableId)>& domain_of);
+
 Result run_problem(const ProblemView& problem, const PropagationOptions& options);
 
 }  // namespace hcsp

@@ -12,10 +12,22 @@ std::string_view to_string(Status status) {
       return "contracted";
     case Status::infeasible:
       return "infeasible";
+    case Status::solved:
+      return "solved";
     case Status::limit:
       return "limit";
   }
   return "";
+}
+
+std::string_view to_string(Certificate certificate) {
+  constexpr std::string_view kNames[] = {"unique", "exists", "inner", "none"};
+  return kNames[static_cast<std::size_t>(certificate)];
+}
+
+std::string_view to_string(Reason reason) {
+  constexpr std::string_view kNames[] = {"", "overdetermined", "singular", "boundary", "manifold", "limit"};
+  return kNames[static_cast<std::size_t>(reason)];
 }
 
 std::vector<const ResultVariable*> select(const std::vector<ResultVariable>& variables,

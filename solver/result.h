@@ -17,10 +17,22 @@
 namespace hcsp {
 
 /// contracted: no solution was lost, whether one exists is not said; infeasible: proven, none exists;
-/// limit: stopped early, the domains are still guaranteed.
-enum class Status : std::uint8_t { contracted, infeasible, limit };
+/// solved: the search for all solutions came to its end; limit: stopped early, the domains are still
+/// guaranteed.
+enum class Status : std::uint8_t { contracted, infeasible, solved, limit };
+
+/// unique: exactly one solution is inside, whatever the values that the literals of the model enclose;
+/// exists: one at least; inner: every point is one; none: that is not proven.
+enum class Certificate : std::uint8_t { unique, exists, inner, none };
+/// Why there is no proof: more equations than unknowns; a solution where the Jacobian is singular, or none;
+/// a relation that holds here and fails there, or a solution at the edge of a domain; a set of solutions that
+/// is no point; a limit.
+enum class Reason : std::uint8_t { proven, overdetermined, singular, boundary, manifold, limit };
 
 std::string_view to_string(Status status);
+std::string_view to_string(Certificate certificate);
+/// Empty for Reason::proven.
+std::string_view to_string(Reason reason);
 
 using Domain = std::variant<Interval, Box, Tube, SetInterval>;
 
@@ -98,10 +110,25 @@ struct TraceEntry {
   std::vector<Change> changes;
 };
 
+/// A box that holds a solution, or of which a search could not tell.
+struct Solution {
+  Certificate certificate = Certificate::none;
+  Reason reason = Reason::proven;
+  std::vector<ResultVariable> variables;
+};
+
+/// Every solution is in one of these boxes; no two unique ones hold the same.
+struct SolutionSet {
+  std::vector<Solution> solutions;                      ///< in the order of their lower bounds
+  std::vector<std::vector<ResultVariable>> unexplored;  ///< boxes that a limit left
+  std::uint64_t cells = 0;                              ///< boxes that were looked at
+};
+
 struct Result {
   std::string model;
   Status status = Status::contracted;
   std::vector<ResultVariable> variables;   ///< in the order of declaration, hidden ones left out
+  std::optional<SolutionSet> search;       ///< of a search for all solutions
   std::optional<Explanation> explanation;  ///< when infeasible
   Statistics statistics;
   std::vector<PassSnapshot> snapshots;  ///< when asked for

@@ -23,10 +23,11 @@ std::span<const CatalogueEntry> time_entries() {
       CatalogueEntry{Code::too_many_instants, "[{}, {}] in steps of {} are over ten million instants",
                      "Either the step is too small, or the span starts far from the data.",
                      "time t in [0, 1700000000] step 0.1;", "time t in [1700000000, 1700000100] step 0.1;"},
-      CatalogueEntry{Code::bad_precision, "a precision is a positive number, this is {}",
-                     "The precision of a set is the edge of its cells.",
-                     "var M : set real[2] in [0, 1]^2 precision 0;",
-                     "var M : set real[2] in [0, 1]^2 precision 0.1;"},
+      CatalogueEntry{
+          Code::bad_precision, "a precision is a positive number, this is {}",
+          "The precision of a set is the edge of its cells, that of `solve all` the width of what it "
+          "does not cut finer.",
+          "var M : set real[2] in [0, 1]^2 precision 0;", "var M : set real[2] in [0, 1]^2 precision 0.1;"},
       CatalogueEntry{
           Code::flat_frame, "this frame has no extent along axis {}",
           "The bound of a set is a box with an inside: a frame of zero area would leave nothing of the set.",

@@ -312,8 +312,15 @@ void Checker::check_constraint(const ConstraintItem& item) {
 }
 
 void Checker::check_solve(const SolveItem& item, const SourceRange& range) {
+  model_.goal = &item;
+  if (item.goal == SolveItem::Goal::all) {
+    const Type precision = item.precision == nullptr ? Type{} : check(*item.precision);
+    if (!precision.is_error() && require_scalar(*item.precision, precision))
+      require_constant(*item.precision, precision);
+    return;
+  }
   if (item.goal == SolveItem::Goal::propagate && item.precision == nullptr) return;
-  constexpr std::string_view kGoals[] = {"a precision of `solve propagate`", "`solve all`", "`solve pave`",
+  constexpr std::string_view kGoals[] = {"a precision of `solve propagate`", "", "`solve pave`",
                                          "`solve minimize`", "`solve maximize`"};
   not_supported(range, kGoals[static_cast<std::size_t>(item.goal)]);
 }

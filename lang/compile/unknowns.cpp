@@ -62,8 +62,21 @@ std::unique_ptr<Problem> Compiler::run() {
   for (const Item& item : model_.tree().items) {
     if (const auto* constraint = std::get_if<ConstraintItem>(&item.content)) compile_constraint(*constraint);
   }
+  check_goal();
   if (model_.diagnostics().any()) return nullptr;
   return std::move(problem_);
+}
+
+void Compiler::check_goal() {
+  if (model_.diagnostics().any() || model_.goal->goal != SolveItem::Goal::all) return;
+  if (model_.goal->precision != nullptr) {
+    if (const auto precision = precision_of(*model_.goal->precision)) model_.precision = *precision;
+  }
+  if (problem_->is_system()) return;
+  for (const Item& item : model_.tree().items) {
+    if (std::holds_alternative<SolveItem>(item.content))
+      not_supported(item.range, "`solve all` of more than relations between numbers");
+  }
 }
 
 // ---- The time line.

@@ -74,6 +74,8 @@ class Model {
   std::unordered_map<std::string_view, Symbol*> by_name;
   std::vector<const Symbol*> definitions;  ///< parameters and lets, each after those that it uses
   const Symbol* time = nullptr;
+  const SolveItem* goal = nullptr;
+  double precision = 0.0;  ///< of the goal; 0 where it states none. The compiler finds it.
   /// The constant instants at which tubes are taken: x(0).
   std::vector<const Expr*> instants;
   std::deque<Table> tables;

@@ -17,7 +17,7 @@ namespace {
 
 // Options of the language's page that later versions bring.
 struct Later {
-  std::string memory_limit, precision, checkpoint, resume;
+  std::string memory_limit, checkpoint, resume;
 };
 
 struct Written {
@@ -44,7 +44,10 @@ void declare(CLI::App& app, Options& options, Written& written, Later& later) {
       ->check(CLI::PositiveNumber)
       ->option_text("S");
   app.add_option("--memory-limit", later.memory_limit, "Not supported yet")->option_text("MB");
-  app.add_option("--precision", later.precision, "Not supported yet")->option_text("P");
+  app.add_option("--precision", options.precision,
+                 "Of `solve all`, in place of the model's: no box is cut finer")
+      ->check(CLI::PositiveNumber)
+      ->option_text("P");
   app.add_flag("--check", options.check_only, "Read and check the model and its data, solve nothing");
   app.add_flag("--format", options.format,
                "Print the model in the canonical layout; -o FILE.hcsp writes it, to the model itself too");
@@ -93,9 +96,8 @@ bool has_ending(const std::string& path, std::string_view option,
 
 // What CLI11 cannot check.
 bool is_usable(const Options& options, const Later& later) {
-  const std::array<std::pair<bool, std::string_view>, 4> missing{
+  const std::array<std::pair<bool, std::string_view>, 3> missing{
       {{!later.memory_limit.empty(), "--memory-limit"},
-       {!later.precision.empty(), "--precision"},
        {!later.checkpoint.empty(), "--checkpoint"},
        {!later.resume.empty(), "--resume"}}};
   for (const auto& [asked, name] : missing) {

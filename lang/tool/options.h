@@ -16,6 +16,7 @@ struct Options {
   std::vector<std::string> outputs;
   unsigned threads = 1;
   double time_limit = 0.0;
+  double precision = 0.0;  // of the model where 0
   bool check_only = false;
   bool format = false;
   bool quiet = false;

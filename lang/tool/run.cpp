@@ -81,6 +81,25 @@ PropagationOptions propagation_options(const Options& options, double data_secon
   return propagation;
 }
 
+SearchOptions search_options(const Options& options, const lang::CompiledModel& model) {
+  SearchOptions search;
+  search.precision = options.precision > 0 ? options.precision : model.precision;
+  search.threads = options.threads;
+  search.time_limit = options.time_limit;
+  search.spent_before = model.data_seconds;
+  search.cancel = &stop_asked;
+  return search;
+}
+
+Result solve(const Options& options, const lang::CompiledModel& model) {
+  if (model.goal == lang::SolveItem::Goal::all)
+    return model.problem->solve_all(search_options(options, model));
+  const PropagationOptions propagation = propagation_options(options, model.data_seconds);
+  const Result result = model.problem->propagate(propagation);
+  if (propagation.progress) fmt::print(stderr, "\r\033[K");
+  return result;
+}
+
 bool write_outputs(const Options& options, const Result& result, Presentation presentation) {
   if (!options.truth.empty()) {
     std::string error;
@@ -98,15 +117,13 @@ bool write_outputs(const Options& options, const Result& result, Presentation pr
   return good;
 }
 
-int solve(const Options& options, lang::CompiledModel& model) {
+int solve_and_tell(const Options& options, const lang::CompiledModel& model) {
   const bool writable =
       std::all_of(options.outputs.begin(), options.outputs.end(), can_write) && can_write(options.trace);
   if (!writable) return kWrongInput;
   std::signal(SIGINT, on_signal);
   std::signal(SIGTERM, on_signal);
-  const PropagationOptions propagation = propagation_options(options, model.data_seconds);
-  const Result result = model.problem->propagate(propagation);
-  if (propagation.progress) fmt::print(stderr, "\r\033[K");
+  const Result result = solve(options, model);
   if (!options.quiet) fmt::print("{}", summary(result, model.shown));
   if (!write_outputs(options, result, {model.shown, {}})) return kWrongInput;
   return result.status == Status::limit ? kStopped : kFinished;
@@ -154,9 +171,13 @@ int run(const Options& options) {
     fmt::print(stderr, "{}", compilation.diagnostics.text());
     return kWrongInput;
   }
+  if (options.precision > 0 && compilation.model->goal == lang::SolveItem::Goal::propagate) {
+    fmt::print(stderr, "hcsp-solve: --precision: `solve propagate` has none\n");
+    return kWrongUsage;
+  }
   if (!draw_graph(options, compilation.model->problem->graph())) return kWrongInput;
   if (options.check_only || !options.dump.empty()) return kFinished;
-  return solve(options, *compilation.model);
+  return solve_and_tell(options, *compilation.model);
 }
 
 }  // namespace hcsp::tool

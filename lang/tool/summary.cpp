@@ -112,19 +112,62 @@ std::string line(const ResultVariable& variable) {
   return std::visit([](const auto& domain) { return line(domain); }, variable.domain);
 }
 
+void list(const std::vector<ResultVariable>& variables, const std::vector<std::string>& shown,
+          std::string& text) {
+  const std::vector<const ResultVariable*> listed = select(variables, shown);
+  std::size_t longest = 0;
+  for (const ResultVariable* variable : listed) longest = std::max(longest, variable->name.size());
+  for (const ResultVariable* variable : listed)
+    text += fmt::format("  {:<{}}  {}\n", variable->name, longest, line(*variable));
+}
+
+// Each certificate with how many boxes have it.
+std::string certificates(const SolutionSet& search) {
+  std::string text;
+  for (const Certificate certificate :
+       {Certificate::unique, Certificate::exists, Certificate::inner, Certificate::none}) {
+    const auto count =
+        std::count_if(search.solutions.begin(), search.solutions.end(),
+                      [&](const Solution& solution) { return solution.certificate == certificate; });
+    if (count == 0) continue;
+    const bool is_none = certificate == Certificate::none;
+    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", count,
+                        is_none ? "not proven" : to_string(certificate));
+  }
+  return text;
+}
+
+std::string summary_of_search(const Result& result, const std::vector<std::string>& shown) {
+  constexpr std::size_t kShown = 20;
+  const SolutionSet& search = *result.search;
+  const std::size_t boxes = search.solutions.size();
+  std::string text = fmt::format("{}: {} in {:.4g} s, {} cell{}\n", result.model, to_string(result.status),
+                                 result.statistics.seconds, search.cells, search.cells == 1 ? "" : "s");
+  if (boxes == 0) return text + (result.status == Status::infeasible ? "no solution: proven\n" : "");
+  text += fmt::format("{} box{}: {}\n", boxes, boxes == 1 ? "" : "es", certificates(search));
+  for (std::size_t i = 0; i < std::min(boxes, kShown); ++i) {
+    const Solution& solution = search.solutions[i];
+    text += fmt::format("{} ({}{}{})\n", i + 1, to_string(solution.certificate),
+                        solution.reason == Reason::proven ? "" : ": ", to_string(solution.reason));
+    list(solution.variables, shown, text);
+  }
+  if (boxes > kShown) text += fmt::format("and {} more\n", boxes - kShown);
+  return text;
+}
+
 }  // namespace
 
 std::string summary(const Result& result, const std::vector<std::string>& shown) {
+  if (result.search) {
+    const std::size_t left = result.search->unexplored.size();
+    return summary_of_search(result, shown) + (left == 0 ? "" : fmt::format("unexplored: {} boxes\n", left));
+  }
   std::string text = fmt::format("{}: {} in {:.4g} s, {} pass{}\n", result.model, to_string(result.status),
                                  result.statistics.seconds, result.statistics.passes,
                                  result.statistics.passes == 1 ? "" : "es");
   if (result.explanation) explain(*result.explanation, text);
   if (result.status == Status::infeasible) return text;
-  const std::vector<const ResultVariable*> listed = select(result.variables, shown);
-  std::size_t longest = 0;
-  for (const ResultVariable* variable : listed) longest = std::max(longest, variable->name.size());
-  for (const ResultVariable* variable : listed)
-    text += fmt::format("  {:<{}}  {}\n", variable->name, longest, line(*variable));
+  list(result.variables, shown, text);
   return text;
 }
 

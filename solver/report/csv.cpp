@@ -22,10 +22,10 @@ bool is_indexed(const Domain& domain) {
   return std::holds_alternative<Box>(domain) || components(domain) > 1;
 }
 
-void put_header(TextBuffer& out, const Result& result, bool has_time) {
-  std::string_view separator;
-  if (has_time) put(out, "t_lo,t_hi");
-  if (has_time) separator = ",";
+// `leading` are the columns before those of the unknowns.
+void put_header(TextBuffer& out, const Result& result, std::string_view leading) {
+  std::string_view separator = leading.empty() ? "" : ",";
+  put(out, leading);
   for (const ResultVariable& variable : result.variables) {
     for (std::size_t c = 0; c < components(variable.domain); ++c) {
       const std::string name =
@@ -44,9 +44,9 @@ struct Column {
   bool is_blank;  // of an empty domain, or on another time line than the table
 };
 
-std::vector<Column> columns_of(const Result& result, const TimeLine* line) {
+std::vector<Column> columns_of(const std::vector<ResultVariable>& variables, const TimeLine* line) {
   std::vector<Column> columns;
-  for (const ResultVariable& variable : result.variables) {
+  for (const ResultVariable& variable : variables) {
     const auto* tube = std::get_if<Tube>(&variable.domain);
     const bool is_elsewhere = tube != nullptr && &tube->line() != line && tube->line() != *line;
     for (std::size_t c = 0; c < components(variable.domain); ++c) {
@@ -75,17 +75,34 @@ void put_row(TextBuffer& out, NumberTexts& texts, const std::vector<Column>& col
   put(out, '\n');
 }
 
+// A row a box.
+std::string search_csv(const Result& result) {
+  TextBuffer out;
+  NumberTexts texts;
+  put_header(out, result, "certificate,reason");
+  const auto put_box = [&](const std::vector<ResultVariable>& box, std::string_view certificate,
+                           std::string_view reason) {
+    fmt::format_to(fmt::appender(out), "{},{},", certificate, reason);
+    put_row(out, texts, columns_of(box, nullptr), 0);
+  };
+  for (const Solution& solution : result.search->solutions)
+    put_box(solution.variables, to_string(solution.certificate), to_string(solution.reason));
+  for (const auto& box : result.search->unexplored) put_box(box, to_string(Certificate::none), "unexplored");
+  return report::to_text(out);
+}
+
 }  // namespace
 
 std::string to_csv(const Result& result) {
+  if (result.search) return search_csv(result);
   const TimeLine* line = nullptr;  // of the first tube: all tubes of a model stand on one line
   for (const ResultVariable& variable : result.variables) {
     const auto* tube = std::get_if<Tube>(&variable.domain);
     if (tube != nullptr && line == nullptr) line = &tube->line();
   }
   TextBuffer out;
-  put_header(out, result, line != nullptr);
-  const std::vector<Column> columns = columns_of(result, line);
+  put_header(out, result, line != nullptr ? "t_lo,t_hi" : "");
+  const std::vector<Column> columns = columns_of(result.variables, line);
   NumberTexts texts;
   const std::size_t rows = line == nullptr ? 1 : line->items();
   for (std::size_t item = 0; item < rows; ++item) {

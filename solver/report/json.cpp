@@ -161,7 +161,7 @@ void put_array(TextBuffer& out, NumberTexts& texts, std::span<const ResultVariab
 }
 
 void put_variables(TextBuffer& out, NumberTexts& texts, std::span<const ResultVariable> variables) {
-  put(out, "  \"variables\": {");
+  put(out, "\"variables\": {");
   for (std::size_t first = 0, next = 0; first < variables.size(); first = next) {
     const std::string& array = variables[first].shape.array;
     next = first + 1;
@@ -171,7 +171,26 @@ void put_variables(TextBuffer& out, NumberTexts& texts, std::span<const ResultVa
     array.empty() ? put_variable(out, texts, variables[first])
                   : put_array(out, texts, variables.subspan(first, next - first), 0);
   }
-  put(out, variables.empty() ? "},\n" : "\n  },\n");
+  put(out, variables.empty() ? "}" : "\n  }");
+}
+
+void put_search(TextBuffer& out, NumberTexts& texts, const SolutionSet& search) {
+  put(out, "  \"solutions\": ");
+  put_list(out, search.solutions.size(), [&](std::size_t i) {
+    const Solution& solution = search.solutions[i];
+    fmt::format_to(fmt::appender(out), "\n  {{ \"certificate\": \"{}\", ", to_string(solution.certificate));
+    if (solution.reason != Reason::proven)
+      fmt::format_to(fmt::appender(out), "\"reason\": \"{}\", ", to_string(solution.reason));
+    put_variables(out, texts, solution.variables);
+    put(out, " }");
+  });
+  put(out, ",\n  \"unexplored\": ");
+  put_list(out, search.unexplored.size(), [&](std::size_t i) {
+    put(out, "\n  { ");
+    put_variables(out, texts, search.unexplored[i]);
+    put(out, " }");
+  });
+  put(out, ",\n");
 }
 
 void put_explanation(TextBuffer& out, NumberTexts& texts, const Explanation& why) {
@@ -220,9 +239,11 @@ std::vector<ContractorStatistics> by_name(const std::vector<ContractorStatistics
   return merged;
 }
 
-void put_statistics(TextBuffer& out, const Statistics& statistics) {
+void put_statistics(TextBuffer& out, const Result& result) {
+  const Statistics& statistics = result.statistics;
   put(out, "  \"statistics\": {\n    \"seconds\": ");
   put_json_number(out, statistics.seconds);
+  if (result.search) fmt::format_to(fmt::appender(out), ", \"cells\": {}", result.search->cells);
   fmt::format_to(fmt::appender(out), ", \"passes\": {}, \"threads\": {},\n    \"contractors\": {{",
                  statistics.passes, statistics.threads);
   bool first = true;
@@ -247,9 +268,12 @@ std::string to_json(const Result& result) {
   put(out, ",\n  \"status\": ");
   put_json_string(out, to_string(result.status));
   put(out, ",\n");
+  put(out, "  ");
   put_variables(out, texts, result.variables);
+  put(out, ",\n");
+  if (result.search) put_search(out, texts, *result.search);
   if (result.explanation) put_explanation(out, texts, *result.explanation);
-  put_statistics(out, result.statistics);
+  put_statistics(out, result);
   put(out, "}\n");
   return report::to_text(out);
 }

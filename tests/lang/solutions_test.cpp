@@ -8,6 +8,7 @@
 //   // maybe: A (2, 2)                 neither
 //   // volume: A 3.14 <= 0.5           the volume of the set is enclosed, within 0.5
 //   // infeasible                      no solution exists, and that is found
+//   // found: 4 unique                 of `solve all`: so many boxes have that certificate
 // is solved, and its answer has to hold the solution and be no wider.
 #include <gtest/gtest.h>
 
@@ -154,6 +155,39 @@ TEST(Solutions, AreInTheAnswersOfGoodModels) {
       checked += check_line(result, line) ? 1 : 0;
   }
   EXPECT_GE(checked, 10U);
+}
+
+// The models that ask for all solutions, those of the gallery among them; `found` counts all that are
+// certified.
+TEST(Solutions, AreAllFoundAndCertified) {
+  static const std::regex kFound(R"(// found: (\d+) (\w+))");
+  std::size_t checked = 0;
+  for (const char* folder : {"tests/lang/good", "models/gallery"}) {
+    for (const auto& path : models_in(std::filesystem::path(HCSP_SOURCE_DIR) / folder)) {
+      SCOPED_TRACE(path.filename().string());
+      const std::string text = read_text(path);
+      if (text.find("\n// found: ") == std::string::npos && !text.starts_with("// found: ")) continue;
+      const Compilation compilation = compile_text({path.string(), text});
+      ASSERT_TRUE(compilation.model.has_value()) << compilation.diagnostics.text();
+      ASSERT_EQ(compilation.model->goal, SolveItem::Goal::all);
+      SearchOptions options;
+      options.precision = compilation.model->precision;
+      options.threads = 2;
+      const Result result = compilation.model->problem->solve_all(options);
+      EXPECT_EQ(result.status, Status::solved);
+      std::map<std::string, std::size_t> found, stated;
+      for (const Solution& solution : result.search->solutions)
+        ++found[std::string(to_string(solution.certificate))];
+      std::istringstream lines(text);
+      std::smatch match;
+      for (std::string line; std::getline(lines, line);) {
+        if (std::regex_match(line, match, kFound)) stated[match[2]] = std::stoul(match[1]);
+      }
+      for (const auto& [certificate, count] : stated) EXPECT_EQ(found[certificate], count) << certificate;
+      ++checked;
+    }
+  }
+  EXPECT_GE(checked, 17U);
 }
 
 }  // namespace

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+// A Problem as a system of relations between reals, and its solutions.
+#include <algorithm>
+
+#include "solver/problem_impl.h"
+#include "solver/search/branch_and_prune.h"
+
+namespace hcsp {
+
+namespace {
+
+// The unknowns that some relation speaks of; the others may have any value of their domains.
+std::vector<Input> unknowns_of(const Dag& dag, const std::vector<NodeId>& relations) {
+  return relations.empty() ? std::vector<Input>{} : Program(dag, relations).inputs();
+}
+
+}  // namespace
+
+bool Problem::is_system() const {
+  const bool all_reals = std::all_of(impl_->kinds.begin(), impl_->kinds.end(),
+                                     [](DomainKind kind) { return kind == DomainKind::real; });
+  return all_reals && impl_->graph.contractors().size() == impl_->relations.size() + impl_->whole.size();
+}
+
+Result Problem::solve_all(const SearchOptions& options) {
+  require(is_system(), "Problem: solve_all() is for relations between reals");
+  require(options.precision > 0, "Problem: a precision of {}", options.precision);
+  const double started = options.clock();
+  System system(impl_->dag, impl_->relations, unknowns_of(impl_->dag, impl_->relations));
+  for (const Input& unknown : system.unknowns) {
+    system.domains.push_back(impl_->graph.initial<Interval>(unknown.variable));
+    system.is_whole.push_back(impl_->whole.contains(unknown.variable) ? 1 : 0);
+  }
+  const SearchAnswer answer = branch_and_prune(system, options);
+
+  std::map<VariableId, std::size_t> place_of;
+  for (std::size_t v = 0; v < system.unknowns.size(); ++v) place_of.emplace(system.unknowns[v].variable, v);
+  const auto variables_in = [&](const std::vector<Interval>& box) {
+    return declared_domains(impl_->view(), [&](VariableId id) -> Domain {
+      const auto place = place_of.find(id);
+      return place == place_of.end() ? impl_->graph.initial<Interval>(id) : box[place->second];
+    });
+  };
+  // Unknowns that are in no relation have many values.
+  bool all_related = true;
+  for (VariableId v = 0; v < impl_->kinds.size(); ++v)
+    all_related = all_related && (place_of.contains(v) || impl_->graph.initial<Interval>(v).is_point());
+  Result result;
+  result.model = impl_->name;
+  result.search.emplace();
+  result.search->cells = answer.cells;
+  std::vector<Interval> around(system.unknowns.size(), Interval::empty());
+  const auto widen = [&](const std::vector<Interval>& box) {
+    for (std::size_t v = 0; v < box.size(); ++v) around[v] = join(around[v], box[v]);
+  };
+  for (const FoundBox& found : answer.found) {
+    const bool is_one_of_many = found.certificate == Certificate::unique && !all_related;
+    result.search->solutions.push_back(
+        {is_one_of_many ? Certificate::exists : found.certificate, found.reason, variables_in(found.box)});
+    widen(found.box);
+  }
+  for (const std::vector<Interval>& box : answer.unexplored) {
+    result.search->unexplored.push_back(variables_in(box));
+    widen(box);
+  }
+  const bool is_feasible = !answer.found.empty() || !answer.unexplored.empty();
+  result.status = !answer.unexplored.empty() ? Status::limit
+                  : is_feasible              ? Status::solved
+                                             : Status::infeasible;
+  result.variables = variables_in(around);
+  for (ResultVariable& variable : result.variables) {
+    if (!is_feasible) std::visit([](auto& domain) { domain = bottom(domain); }, variable.domain);
+  }
+  result.statistics.seconds = options.spent_before + options.clock() - started;
+  result.statistics.threads = options.threads;
+  return result;
+}
+
+}  // namespace hcsp

@@ -1,0 +1,290 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "solver/search/branch_and_prune.h"
+
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/global_control.h>
+#include <tbb/task_arena.h>
+#include <tbb/task_group.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "domains/interval/kernel.h"
+#include "domains/rounding.h"
+#include "solver/search/choices.h"
+#include "solver/search/hc4.h"
+#include "solver/search/newton.h"
+#include "solver/search/shaving.h"
+
+namespace hcsp {
+
+namespace {
+
+double width_of(const Interval& x) { return x.hi() - x.lo(); }
+
+// Where a domain is cut: in the middle, or where it is unbounded, far out.
+double middle_of(const Interval& x) {
+  constexpr double kFar = 1e8, kFarther = 1e3;
+  if (x.is_bounded()) return 0.5 * x.lo() + 0.5 * x.hi();
+  if (x.is_entire()) return 0.0;
+  if (x.lo() == -kInfinity) return -middle_of(-x);
+  return std::min(std::max(kFar, kFarther * x.lo()), std::numeric_limits<double>::max());
+}
+
+bool is_divisible(const Interval& x) {
+  const double middle = middle_of(x);
+  return x.lo() < middle && middle < x.hi();
+}
+
+bool lies_in(const std::vector<Interval>& a, const std::vector<Interval>& b) {
+  return std::equal(a.begin(), a.end(), b.begin(),
+                    [](const Interval& x, const Interval& y) { return leq(x, y); });
+}
+
+bool comes_before(const std::vector<Interval>& a, const std::vector<Interval>& b) {
+  return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end(),
+                                      [](const Interval& x, const Interval& y) {
+                                        return x.lo() < y.lo() || (x.lo() == y.lo() && x.hi() < y.hi());
+                                      });
+}
+
+// A found box with a box around it: of a unique solution, one that holds no other.
+struct Leaf {
+  FoundBox found;
+  std::vector<Interval> reach;
+};
+
+// What a thread needs to look at boxes, and what it found.
+class Explorer {
+ public:
+  Explorer(const System& system, const SearchOptions& options)
+      : system_(system),
+        options_(options),
+        hc4_(system),
+        shaving_(hc4_),
+        choices_(system),
+        newton_(system),
+        run_(*system.tape) {}
+
+  struct Cut {
+    std::uint32_t unknown;
+    double at;
+  };
+  /// Contracts a box, of which the unknown that was cut last may be all that is new; tells where to cut what
+  /// is left. Nothing is left to cut where there is no solution, or where one is found.
+  std::optional<Cut> explore(std::vector<Interval>& box, std::optional<std::uint32_t> cut_last) {
+    ++cells;
+    if (!contract(box, cut_last)) return {};
+    if (is_inner(box)) return keep(box, Certificate::inner, Reason::proven), std::nullopt;
+    const std::optional<Cut> cut = choose_cut(box);
+    if (!cut) keep_small(box);
+    return cut;
+  }
+  void leave(std::vector<Interval> box) { unexplored.push_back(std::move(box)); }
+
+  std::vector<Leaf> leaves;
+  std::vector<std::vector<Interval>> unexplored;
+  std::uint64_t cells = 0;
+
+ private:
+  // False when nothing is left, or what is left was kept.
+  bool contract(std::vector<Interval>& box, std::optional<std::uint32_t> cut_last) {
+    if (!(cut_last ? hc4_.contract(box, *cut_last) : hc4_.contract(box))) return false;
+    if (!choices_.contract(box) || !shave(box)) return false;
+    for (;;) {
+      const std::vector<Interval> before = box;
+      const Newton::Outcome outcome = newton_.contract(box);
+      if (outcome == Newton::Outcome::empty) return false;
+      if (outcome == Newton::Outcome::proven && newton_.is_one()) return keep_alone(), false;
+      if (outcome == Newton::Outcome::nothing || !is_much_less(before, box)) return true;
+      if (!hc4_.contract(box) || !choices_.contract(box)) return false;
+    }
+  }
+
+  // By every unknown, those first with which the equations vary most.
+  bool shave(std::vector<Interval>& box) {
+    order_.resize(box.size());
+    for (std::uint32_t v = 0; v < box.size(); ++v) order_[v] = v;
+    const std::vector<double>& smear = newton_.smear(box);
+    std::stable_sort(order_.begin(), order_.end(), [&](auto u, auto v) { return smear[u] > smear[v]; });
+    return std::all_of(order_.begin(), order_.end(), [&](auto v) { return shaving_.contract(box, v); });
+  }
+
+  static bool is_much_less(const std::vector<Interval>& before, const std::vector<Interval>& now) {
+    constexpr double kMuch = 0.9;
+    return !std::equal(now.begin(), now.end(), before.begin(), [](const Interval& x, const Interval& was) {
+      return width_of(x) >= kMuch * width_of(was);
+    });
+  }
+
+  // The unknown with which the equations vary most, of those that are wider than the precision.
+  std::optional<Cut> choose_cut(const std::vector<Interval>& box) {
+    const std::vector<double>& smear = newton_.smear(box);
+    std::optional<std::uint32_t> best;
+    for (std::uint32_t v = 0; v < box.size(); ++v) {
+      if (!(width_of(box[v]) > options_.precision) || !is_divisible(box[v])) continue;
+      const bool is_better = best && (smear[v] > smear[*best] ||
+                                      (smear[v] == smear[*best] && width_of(box[v]) > width_of(box[*best])));
+      if (!best || is_better) best = v;
+    }
+    if (!best) return {};
+    return Cut{*best, middle_of(box[*best])};
+  }
+
+  // Every point is a solution.
+  bool is_inner(const std::vector<Interval>& box) {
+    return newton_.equations() == 0 && whole_where_asked(box) && all_hold(box);
+  }
+
+  [[nodiscard]] bool whole_where_asked(const std::vector<Interval>& box) const {
+    for (std::size_t v = 0; v < box.size(); ++v) {
+      if (system_.is_whole[v] != 0 && !box[v].is_point()) return false;
+    }
+    return true;
+  }
+
+  // All relations but equations hold for every point of a box.
+  bool all_hold(const std::vector<Interval>& box) {
+    run_.evaluate(box, false);
+    for (std::size_t i = 0; i < system_.relations.size(); ++i) {
+      const System::Relation& relation = system_.relations[i];
+      if (relation.is_equation()) continue;
+      const double most = run_.value(i).hi();
+      const bool holds = relation.strict ? most < 0.0 : most <= 0.0;
+      if (!holds || !run_.is_continuous(i)) return false;
+    }
+    return choices_.all_hold(box);
+  }
+
+  // Newton proved that its enclosure holds the one solution of the equations, or of some of them, near a box.
+  // It may be the neighbour's.
+  void keep_alone() {
+    std::vector<Interval> box = newton_.enclosure();
+    bool is_within = whole_where_asked(box);
+    for (std::size_t v = 0; v < box.size(); ++v) {
+      is_within = is_within && leq(box[v], system_.domains[v]);
+      box[v] = meet(box[v], system_.domains[v]);
+      if (box[v].is_empty()) return;
+    }
+    if (!hc4_.contract(box)) return;
+    if (newton_.equations() > box.size()) return keep(box, Certificate::none, Reason::overdetermined);
+    if (!is_within || !all_hold(box)) return keep(box, Certificate::none, Reason::boundary);
+    keep(newton_.enclosure(), Certificate::unique, Reason::proven);
+  }
+
+  // A box that is not cut any more: there is a solution for every value of the parameters, or nothing is
+  // proven.
+  void keep_small(std::vector<Interval> box) {
+    const std::size_t equations = newton_.equations();
+    if (equations == 0) return keep(box, Certificate::none, Reason::boundary);
+    if (equations >= box.size())
+      return keep(box, Certificate::none, equations > box.size() ? Reason::overdetermined : Reason::singular);
+    if (newton_.prove_some(box) && lies_in(newton_.enclosure(), system_.domains) &&
+        whole_where_asked(newton_.enclosure()) && all_hold(newton_.enclosure()))
+      return keep(newton_.enclosure(), Certificate::exists, Reason::proven);
+    keep(box, Certificate::none, Reason::manifold);
+  }
+
+  void keep(const std::vector<Interval>& box, Certificate certificate, Reason reason) {
+    leaves.push_back({{box, certificate, reason}, newton_.reach()});
+  }
+
+  const System& system_;
+  const SearchOptions& options_;
+  Hc4 hc4_;
+  Shaving shaving_;
+  Choices choices_;
+  Newton newton_;
+  TapeRun run_;
+  std::vector<std::uint32_t> order_;
+};
+
+class Search {
+ public:
+  Search(const System& system, const SearchOptions& options)
+      : system_(system),
+        options_(options),
+        started_(options.clock()),
+        explorers_([&] { return Explorer(system, options); }) {}
+
+  SearchAnswer run() {
+    const std::size_t threads = std::max(options_.threads, 1U);
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+    tbb::task_arena arena(static_cast<int>(threads));
+    arena.execute([&] {
+      tbb::task_group tasks;
+      tasks.run_and_wait([&] { descend(tasks, system_.domains, {}); });
+    });
+    return gather();
+  }
+
+ private:
+  [[nodiscard]] bool is_over() const {
+    if (options_.cancel != nullptr && options_.cancel->load(std::memory_order_relaxed)) return true;
+    return options_.time_limit > 0 && options_.clock() - started_ >= options_.time_limit;
+  }
+
+  // One half of a box after another; the other halves are other tasks.
+  void descend(tbb::task_group& tasks, std::vector<Interval> box, std::optional<std::uint32_t> cut_last) {
+    const RoundUpward guard;
+    Explorer& explorer = explorers_.local();
+    for (;;) {
+      if (is_over()) return explorer.leave(std::move(box));
+      const auto cut = explorer.explore(box, cut_last);
+      if (!cut) return;
+      const std::uint32_t v = cut->unknown;
+      cut_last = v;
+      std::vector<Interval> upper = box;
+      upper[v] = Interval::raw(cut->at, box[v].hi());
+      box[v] = Interval::raw(box[v].lo(), cut->at);
+      tasks.run([this, &tasks, upper = std::move(upper), v] { descend(tasks, upper, v); });
+    }
+  }
+
+  SearchAnswer gather() {
+    SearchAnswer answer;
+    std::vector<Leaf> leaves;
+    for (Explorer& explorer : explorers_) {
+      answer.cells += explorer.cells;
+      std::move(explorer.leaves.begin(), explorer.leaves.end(), std::back_inserter(leaves));
+      std::move(explorer.unexplored.begin(), explorer.unexplored.end(),
+                std::back_inserter(answer.unexplored));
+    }
+    std::sort(answer.unexplored.begin(), answer.unexplored.end(), comes_before);
+    std::sort(leaves.begin(), leaves.end(), [](const Leaf& a, const Leaf& b) {
+      if (a.found.box == b.found.box) return comes_before(a.reach, b.reach);
+      return comes_before(a.found.box, b.found.box);
+    });
+    for (std::size_t i = 0; i < leaves.size(); ++i) {
+      if (!is_told(leaves, i)) answer.found.push_back(leaves[i].found);
+    }
+    return answer;
+  }
+
+  // Whether a solution is that of a leaf before it.
+  static bool is_told(const std::vector<Leaf>& leaves, std::size_t i) {
+    const Leaf& leaf = leaves[i];
+    if (leaf.found.certificate != Certificate::unique) return false;
+    for (std::size_t k = i; k-- > 0;) {
+      const Leaf& known = leaves[k];
+      if (known.found.certificate != Certificate::unique) continue;
+      if (known.found.box[0].hi() < leaf.reach[0].lo()) return false;
+      if (lies_in(leaf.found.box, known.reach) || lies_in(known.found.box, leaf.reach)) return true;
+    }
+    return false;
+  }
+
+  const System& system_;
+  const SearchOptions& options_;
+  double started_;
+  tbb::enumerable_thread_specific<Explorer> explorers_;
+};
+
+}  // namespace
+
+SearchAnswer branch_and_prune(const System& system, const SearchOptions& options) {
+  return Search(system, options).run();
+}
+
+}  // namespace hcsp
