@@ -105,6 +105,18 @@ TEST(Fuzz, MutatedModelsGiveAnAnswerOrDiagnostics) {
   EXPECT_GT(compiled, kRounds / 20);
 }
 
+// What a fuzzer found that took new paths.
+TEST(Fuzz, KeptInputsGiveAnAnswerOrDiagnostics) {
+  std::size_t read = 0;
+  for (const auto& file : std::filesystem::directory_iterator(kLangTests / "../fuzz/corpus")) {
+    SCOPED_TRACE(file.path().filename().string());
+    const Compilation compilation = compile_text({"model.hcsp", read_text(file.path())});
+    EXPECT_EQ(compilation.diagnostics.text().empty(), compilation.model.has_value());
+    ++read;
+  }
+  EXPECT_GE(read, 200U);
+}
+
 TEST(Fuzz, MutatedDataGiveAnAnswerOrDiagnostics) {
   std::vector<std::string> texts;
   for (const auto& file : std::filesystem::directory_iterator(kLangTests / "data")) {
