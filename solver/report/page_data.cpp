@@ -224,6 +224,30 @@ void put_explanation(TextBuffer& out, const Explanation& why) {
   put(out, '}');
 }
 
+// The boxes of a search, the first of them where there are many: per box its certificate, its reason, and for
+// each variable its sides.
+void put_search(TextBuffer& out, const SolutionSet& search, const Presentation& presentation) {
+  constexpr std::size_t kShown = 1000;
+  const std::vector<Solution> first(
+      search.solutions.begin(),
+      search.solutions.begin() + static_cast<std::ptrdiff_t>(std::min(kShown, search.solutions.size())));
+  fmt::format_to(fmt::appender(out), R"({{"cells":{},"boxes":{},"unexplored":{},"solutions":)", search.cells,
+                 search.solutions.size(), search.unexplored.size());
+  put_list(out, first, [&](const Solution& solution) {
+    fmt::format_to(fmt::appender(out), R"(["{}","{}",)", to_string(solution.certificate),
+                   to_string(solution.reason));
+    put_list(out, shown_variables(solution.variables, presentation), [&](const ResultVariable* variable) {
+      std::vector<Interval> sides;
+      if (const auto* real = std::get_if<Interval>(&variable->domain)) sides = {*real};
+      if (const auto* box = std::get_if<Box>(&variable->domain))
+        sides.assign(box->components().begin(), box->components().end());
+      put_list(out, sides, [&](const Interval& side) { put_pair(out, side.lo(), side.hi()); });
+    });
+    put(out, ']');
+  });
+  put(out, '}');
+}
+
 void put_truth(TextBuffer& out, const Truth& truth) {
   put(out, R"({"t":)");
   put_doubles(out, truth.t);
@@ -241,7 +265,7 @@ void put_truth(TextBuffer& out, const Truth& truth) {
   put(out, "}}");
 }
 
-void put_head(TextBuffer& out, const Result& result) {
+void put_head(TextBuffer& out, const Result& result, const Presentation& presentation) {
   put(out, R"({"hcsp":")" HCSP_VERSION R"(","model":)");
   put_json_string(out, result.model);
   put(out, R"(,"status":)");
@@ -259,6 +283,8 @@ void put_head(TextBuffer& out, const Result& result) {
   });
   put(out, ",\"explanation\":");
   result.explanation ? put_explanation(out, *result.explanation) : put(out, "null");
+  put(out, ",\"search\":");
+  result.search ? put_search(out, *result.search, presentation) : put(out, "null");
 }
 
 }  // namespace
@@ -289,7 +315,7 @@ std::string page_data(const Result& result, const Presentation& presentation) {
     shown.push_back(how);
   }
   TextBuffer out;
-  put_head(out, result);
+  put_head(out, result, presentation);
   put(out, ",\n\"lines\":");
   put_list(out, lines, [&](const TimeLine* line) { put_doubles(out, line->instants()); });
   put(out, ",\n\"variables\":");

@@ -37,8 +37,11 @@ constexpr double kMostHeight = 4000;
 
 // One line about the run, and one about why it has no solution.
 std::string caption(const Result& result) {
-  std::string text = fmt::format("{} in {} s, {} passes", to_string(result.status),
-                                 report::for_people(result.statistics.seconds, 3), result.statistics.passes);
+  std::string text =
+      fmt::format("{} in {} s, ", to_string(result.status), report::for_people(result.statistics.seconds, 3));
+  text += result.search
+              ? fmt::format("{} boxes, {} cells", result.search->solutions.size(), result.search->cells)
+              : fmt::format("{} passes", result.statistics.passes);
   if (!result.explanation) return text;
   const Explanation& why = *result.explanation;
   text += fmt::format(": constraint {} leaves no value for {}", why.constraint, why.variable);

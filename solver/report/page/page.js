@@ -44,8 +44,10 @@ function fillHeader(data) {
   d3.select("#status").text(data.status).classed(data.status, true)
     .attr("title", { contracted: "No solution was lost; whether one exists is not said.",
       infeasible: "It is proven that no solution exists.",
+      solved: "Every solution is in one of the boxes.",
       limit: "Stopped early; the domains still hold every solution." }[data.status] || null);
-  const facts = [["solved in", textOfSeconds(number(data.seconds))], ["passes", data.passes], ["threads", data.threads]];
+  const facts = [["solved in", textOfSeconds(number(data.seconds))], data.search ? ["cells", data.search.cells] : ["passes", data.passes],
+    ["threads", data.threads]];
   const rows = d3.select("#facts").selectAll("div").data(facts).join("div");
   rows.append("dt").text((d) => d[0]);
   rows.append("dd").text((d) => d[1]);
@@ -75,7 +77,30 @@ function fillExplanation(data) {
   if (few.length < why.readings.length) card.select("ul").append("li").text("and " + (why.readings.length - few.length) + " more");
 }
 
+// A side of a box in which a solution is isolated is a number with as many digits as are known.
+function textOfSide([lo, hi]) {
+  const digits = -Math.log10((hi - lo) / Math.max(Math.abs(lo), Math.abs(hi)));
+  if (lo === hi) return String(lo);
+  return digits > 4 ? ((lo + hi) / 2).toPrecision(Math.min(12, Math.floor(digits))) : textOfBounds(lo, hi);
+}
+
+function fillSolutions(data) {
+  if (!data.search) return;
+  const { solutions, boxes, unexplored, cells } = data.search;
+  d3.select("#solutions-card").attr("hidden", null);
+  d3.select("#solutions-note").text(`${boxes} ${boxes === 1 ? "box" : "boxes"}` + (unexplored ? `, ${unexplored} unexplored` : "") +
+    (solutions.length < boxes ? `, the first ${solutions.length}` : "") + `; ${cells} cells`);
+  const table = d3.select("#solutions");
+  table.append("thead").append("tr").selectAll("th").data(["", "certificate", ...data.variables.map((v) => v.name)]).join("th").text((d) => d);
+  const sides = (each) => each.map(([lo, hi]) => textOfSide([number(lo), number(hi)])).join(", ");
+  const lines = table.append("tbody").selectAll("tr").data(solutions).join("tr");
+  lines.selectAll("td").data(([certificate, reason, variables], i) =>
+    [i + 1, certificate === "none" ? `not proven: ${reason}` : certificate, ...variables.map(sides)]).join("td").text((d) => d);
+}
+
 function fillContractors(data) {
+  if (!data.contractors.length) return;
+  d3.select("#contractors-card").attr("hidden", null);
   const table = d3.select("#contractors");
   table.append("thead").append("tr").selectAll("th").data(["contractor", "calls", "time", ""]).join("th")
     .attr("class", (d, i) => i === 1 || i === 2 ? "number" : null).text((d) => d);
@@ -197,6 +222,7 @@ function main() {
   for (const each of data.variables) if (each.kind === "tube") each.color = "--tube-" + (tubeCount++ % 3);
   fillHeader(data);
   fillExplanation(data);
+  fillSolutions(data);
   fillContractors(data);
   const layers = layersOf(data);
   const tubes = data.variables.filter((each) => each.kind === "tube" && lastDomain(data, each.index));
