@@ -13,6 +13,7 @@
 #include "domains/interval/kernel.h"
 #include "domains/rounding.h"
 #include "solver/search/choices.h"
+#include "solver/search/elimination.h"
 #include "solver/search/hc4.h"
 #include "solver/search/newton.h"
 #include "solver/search/shaving.h"
@@ -64,6 +65,7 @@ class Explorer {
         hc4_(system),
         shaving_(hc4_),
         choices_(system),
+        elimination_(system),
         newton_(system),
         run_(*system.tape) {}
 
@@ -91,7 +93,7 @@ class Explorer {
   // False when nothing is left, or what is left was kept.
   bool contract(std::vector<Interval>& box, std::optional<std::uint32_t> cut_last) {
     if (!(cut_last ? hc4_.contract(box, *cut_last) : hc4_.contract(box))) return false;
-    if (!choices_.contract(box) || !shave(box)) return false;
+    if (!choices_.contract(box) || !eliminate(box) || !shave(box) || !eliminate(box)) return false;
     for (;;) {
       const std::vector<Interval> before = box;
       const Newton::Outcome outcome = newton_.contract(box);
@@ -100,6 +102,18 @@ class Explorer {
       if (outcome == Newton::Outcome::nothing || !is_much_less(before, box)) return true;
       if (!hc4_.contract(box) || !choices_.contract(box)) return false;
     }
+  }
+
+  // While it gains much.
+  bool eliminate(std::vector<Interval>& box) {
+    constexpr int kMostRounds = 5;
+    for (int round = 0; round < kMostRounds; ++round) {
+      const std::vector<Interval> before = box;
+      if (!elimination_.contract(box)) return false;
+      if (!is_much_less(before, box)) return true;
+      if (!hc4_.contract(box)) return false;
+    }
+    return true;
   }
 
   // By every unknown, those first with which the equations vary most.
@@ -195,6 +209,7 @@ class Explorer {
   Hc4 hc4_;
   Shaving shaving_;
   Choices choices_;
+  Elimination elimination_;
   Newton newton_;
   TapeRun run_;
   std::vector<std::uint32_t> order_;
