@@ -2,6 +2,9 @@
 // Integer powers of both bounds at once (lanes.h), and roots.
 #include "domains/interval/pown.h"
 
+#include <cmath>
+#include <optional>
+
 #include "domains/interval/cube.h"
 #include "domains/interval/kernel.h"
 #include "domains/interval/lanes.h"
@@ -78,6 +81,32 @@ Words is_moderate(const Bounds& x, int n) {
   return ((size >= 1 / most) & (size <= most)) | (size == 0.0) | (size == kInfinity);
 }
 
+/// The double r with r^n < x < s^n for the next double s, found from a guess and proven by the powers; none
+/// where that is too close to tell, as for an exact root, or where a power might overflow. For 2 <= n <=
+/// kMostFactors.
+std::optional<double> root_below(double x, int n) {
+  constexpr double kLeast = 0x1p-900, kMost = 0x1p900, kError = 0x1p-88;
+  constexpr int kMostSteps = 4;
+  if (!(x >= kLeast && x <= kMost)) return {};
+  double root = std::pow(x, 1.0 / n);
+  for (int step = 0; step < kMostSteps; ++step) {
+    const Pair power = power_of(Bounds{root, next_up(root)}, n, Words{});
+    const Bounds above = (power.hi - x) + power.lo;
+    if (!both(magnitude(above) > x * kError)) return {};
+    if (above[0] < 0 && above[1] > 0) return root;
+    root = above[0] > 0 ? next_down(root) : next_up(root);
+  }
+  return {};
+}
+
+/// The root of x rounded upward, or -x rounded downward, as a bound (-lo, hi) wants it.
+std::optional<double> root_above(double x, int n) {
+  if (x == 0 || x == kInfinity || x == -kInfinity) return x;
+  const auto below = root_below(std::abs(x), n);
+  if (!below) return {};
+  return x > 0 ? next_up(*below) : -*below;
+}
+
 }  // namespace
 
 Interval cube(const Interval& a) {
@@ -106,6 +135,11 @@ Interval pown(const Interval& a, int n) {
 
 Interval rootn(const Interval& a, int n) {
   if (n == 1) return a;
+  const Interval domain = n % 2 == 0 ? meet(a, kPositive) : a;
+  if (2 <= n && n <= kMostFactors && !domain.is_empty()) {
+    const auto lower = root_above(domain.bounds()[0], n), upper = root_above(domain.bounds()[1], n);
+    if (lower && upper) return Interval::of_bounds(Bounds{*lower, *upper});
+  }
   const auto image = [n](const Interval& x) {
     return n % 2 == 0 ? on_positive(root_of, meet(x, kPositive), n) : odd(root_of, x, n);
   };

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Gauss-Jordan elimination of the equations, each in its mean value form over a box, those that are nearly linear
-// first: what is left relates few unknowns, and contracts them where the equations one by one do not. Unlike
-// Newton's preconditioner it keeps what is linear apart from what is not, so that it serves on wide boxes.
+// Gauss-Jordan elimination of the equations, each in its mean value form over a box, those that are nearly
+// linear first: what is left relates few unknowns, and contracts them where the equations one by one do not.
+// Unlike Newton's preconditioner it keeps what is linear apart from what is not, so that it serves on wide
+// boxes.
 #pragma once
 
 #include <Eigen/Core>
@@ -28,9 +29,9 @@ class Elimination {
   TapeRun run_;
   std::vector<std::vector<Interval>> slopes_;  // by equation and unknown
   std::vector<Interval> center_, values_, row_, terms_, sums_;
-  std::vector<double> bend_;               // by equation: how far it is from linear over the box
-  std::vector<std::uint32_t> order_;       // of the equations that have a mean value form, the straightest first
-  Eigen::MatrixXd middle_, combination_;   // rows of the elimination, and how the equations make them
+  std::vector<double> bend_;          // by equation: how far it is from linear over the box
+  std::vector<std::uint32_t> order_;  // of the equations that have a mean value form, the straightest first
+  Eigen::MatrixXd middle_, combination_;  // rows of the elimination, and how the equations make them
 };
 
 }  // namespace hcsp
