@@ -43,6 +43,11 @@ bool lies_in(const std::vector<Interval>& a, const std::vector<Interval>& b) {
                     [](const Interval& x, const Interval& y) { return leq(x, y); });
 }
 
+bool have_a_common_point(const std::vector<Interval>& a, const std::vector<Interval>& b) {
+  return std::equal(a.begin(), a.end(), b.begin(),
+                    [](const Interval& x, const Interval& y) { return !meet(x, y).is_empty(); });
+}
+
 bool comes_before(const std::vector<Interval>& a, const std::vector<Interval>& b) {
   return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end(),
                                       [](const Interval& x, const Interval& y) {
@@ -68,6 +73,8 @@ class Explorer {
         elimination_(system),
         newton_(system),
         run_(*system.tape) {}
+  Explorer(const Explorer&) = delete;
+  Explorer& operator=(const Explorer&) = delete;
 
   struct Cut {
     std::uint32_t unknown;
@@ -172,7 +179,7 @@ class Explorer {
   }
 
   // Newton proved that its enclosure holds the one solution of the equations, or of some of them, near a box.
-  // It may be the neighbour's.
+  // It may be the neighbour's, or no solution of the rest.
   void keep_alone() {
     std::vector<Interval> box = newton_.enclosure();
     bool is_within = whole_where_asked(box);
@@ -271,23 +278,38 @@ class Search {
       if (a.found.box == b.found.box) return comes_before(a.reach, b.reach);
       return comes_before(a.found.box, b.found.box);
     });
-    for (std::size_t i = 0; i < leaves.size(); ++i) {
-      if (!is_told(leaves, i)) answer.found.push_back(leaves[i].found);
-    }
+    tell_once(leaves, answer.found);
     return answer;
   }
 
-  // Whether a solution is that of a leaf before it.
-  static bool is_told(const std::vector<Leaf>& leaves, std::size_t i) {
-    const Leaf& leaf = leaves[i];
-    if (leaf.found.certificate != Certificate::unique) return false;
-    for (std::size_t k = i; k-- > 0;) {
-      const Leaf& known = leaves[k];
-      if (known.found.certificate != Certificate::unique) continue;
-      if (known.found.box[0].hi() < leaf.reach[0].lo()) return false;
-      if (lies_in(leaf.found.box, known.reach) || lies_in(known.found.box, leaf.reach)) return true;
+  // Two unique boxes with a common point have the same solution when one lies where the other's is alone.
+  static void tell_once(const std::vector<Leaf>& leaves, std::vector<FoundBox>& found) {
+    double widest = 0.0;
+    for (const Leaf& leaf : leaves) {
+      if (leaf.found.certificate == Certificate::unique)
+        widest = std::max(widest, width_of(leaf.found.box[0]));
     }
-    return false;
+    std::vector<const Leaf*> told;  // those that are unique
+    for (const Leaf& leaf : leaves) {
+      FoundBox box = leaf.found;
+      bool is_new = true;
+      for (auto known = told.rbegin(); box.certificate == Certificate::unique && known != told.rend();
+           ++known) {
+        const Leaf& other = **known;
+        if (other.found.box[0].lo() + 2 * widest < box.box[0].lo()) break;
+        if (lies_in(box.box, other.reach) || lies_in(other.found.box, leaf.reach)) {
+          is_new = false;
+          break;
+        }
+        if (have_a_common_point(box.box, other.found.box)) {
+          box.certificate = Certificate::none;
+          box.reason = Reason::singular;
+        }
+      }
+      if (!is_new) continue;
+      if (box.certificate == Certificate::unique) told.push_back(&leaf);
+      found.push_back(std::move(box));
+    }
   }
 
   const System& system_;
