@@ -20,7 +20,7 @@ IntegerVariable Problem::integer(std::string name, const Interval& domain) {
   const VariableId id = impl_->add(name, domain, DomainKind::real);
   impl_->shapes[id].scalar = Shape::Scalar::whole;
   impl_->whole.insert(id);
-  impl_->state(make_integrality_contractor(name + " is whole", id));
+  impl_->state(make_integrality_contractor(name + " is whole", id), true);
   return {id};
 }
 
@@ -33,7 +33,7 @@ BooleanVariable Problem::boolean(std::string name) {
 BooleanVariable Problem::hidden_boolean(std::string name) {
   const VariableId id = impl_->add(impl_->free_name(name), Interval(0.0, 1.0), DomainKind::real, true);
   impl_->whole.insert(id);
-  impl_->state(make_integrality_contractor(impl_->graph.variable(id).name(), id));
+  impl_->state(make_integrality_contractor(impl_->graph.variable(id).name(), id), true);
   return {id};
 }
 

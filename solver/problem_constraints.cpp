@@ -16,7 +16,8 @@ namespace hcsp {
 void Problem::constrain(std::string name, Expr relation) {
   if (impl_->alternative == nullptr) impl_->relations.push_back(relation.node());
   impl_->state(
-      make_relation_contractor(std::move(name), impl_->dag, impl_->relation_of(relation), impl_->context()));
+      make_relation_contractor(std::move(name), impl_->dag, impl_->relation_of(relation), impl_->context()),
+      true);
 }
 
 void Problem::constrain_sometime(std::string name, Expr relation) {

@@ -52,6 +52,7 @@ struct Problem::Impl {
   std::set<std::string> hidden_names;
   std::vector<NodeId> relations;                  // those that hold whatever else does
   std::set<VariableId> whole;                     // the whole numbers and Booleans
+  bool is_system = true;                          // nothing but relations and whole numbers was stated
   std::shared_ptr<const ItemSet> window;          // the items at hand; null for all
   std::shared_ptr<InstantAtHand> each_instant{};  // of at_each_instant()
 
@@ -98,7 +99,8 @@ struct Problem::Impl {
   }
 
   // A contractor of the problem, or of the alternative that is being stated.
-  void state(std::unique_ptr<Contractor> contractor) {
+  void state(std::unique_ptr<Contractor> contractor, bool of_system = false) {
+    is_system = is_system && of_system;
     if (alternative == nullptr) {
       graph.add_contractor(std::move(contractor));
     } else {

@@ -19,7 +19,7 @@ std::vector<Input> unknowns_of(const Dag& dag, const std::vector<NodeId>& relati
 bool Problem::is_system() const {
   const bool all_reals = std::all_of(impl_->kinds.begin(), impl_->kinds.end(),
                                      [](DomainKind kind) { return kind == DomainKind::real; });
-  return all_reals && impl_->graph.contractors().size() == impl_->relations.size() + impl_->whole.size();
+  return all_reals && impl_->is_system;
 }
 
 Result Problem::solve_all(const SearchOptions& options) {

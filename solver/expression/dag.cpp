@@ -2,6 +2,7 @@
 #include "solver/expression/dag.h"
 
 #include <algorithm>
+#include <unordered_set>
 
 #include "domains/check.h"
 #include "solver/expression/operators.h"
@@ -42,6 +43,24 @@ NodeId Dag::apply(Op op, std::array<NodeId, 3> operands, int count) {
   node.op = op;
   node.operands = operands;
   return intern(node);
+}
+
+std::vector<NodeId> needed_nodes(const Dag& dag, const std::vector<NodeId>& roots) {
+  std::vector<NodeId> needed = roots, open = roots;
+  std::unordered_set<NodeId> seen(roots.begin(), roots.end());
+  while (!open.empty()) {
+    const DagNode& node = dag[open.back()];
+    open.pop_back();
+    for (int k = 0; k < operator_entry(node.op).arity; ++k) {
+      const NodeId operand = node.operands[static_cast<std::size_t>(k)];
+      if (!seen.insert(operand).second) continue;
+      needed.push_back(operand);
+      open.push_back(operand);
+    }
+  }
+  std::sort(needed.begin(), needed.end());
+  needed.erase(std::unique(needed.begin(), needed.end()), needed.end());
+  return needed;
 }
 
 }  // namespace hcsp

@@ -101,4 +101,8 @@ class Dag {
   std::map<Key, NodeId> known_;
 };
 
+/// The nodes that the roots need, in the order of their indices, which is an evaluation order. Costs what
+/// there are of them, however large the graph.
+std::vector<NodeId> needed_nodes(const Dag& dag, const std::vector<NodeId>& roots);
+
 }  // namespace hcsp

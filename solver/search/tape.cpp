@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <unordered_set>
 
 #include "domains/check.h"
 #include "solver/expression/operators.h"
@@ -12,25 +11,6 @@
 namespace hcsp {
 
 namespace {
-
-// The nodes that the roots need, children first.
-std::vector<NodeId> needed_nodes(const Dag& dag, const std::vector<NodeId>& roots) {
-  std::vector<NodeId> needed = roots, open = roots;
-  std::unordered_set<NodeId> seen(roots.begin(), roots.end());
-  while (!open.empty()) {
-    const DagNode& node = dag[open.back()];
-    open.pop_back();
-    for (int k = 0; k < operator_entry(node.op).arity; ++k) {
-      const NodeId operand = node.operands[static_cast<std::size_t>(k)];
-      if (!seen.insert(operand).second) continue;
-      needed.push_back(operand);
-      open.push_back(operand);
-    }
-  }
-  std::sort(needed.begin(), needed.end());
-  needed.erase(std::unique(needed.begin(), needed.end()), needed.end());
-  return needed;
-}
 
 bool is_leaf(Op op) { return op == Op::constant || op == Op::input; }
 

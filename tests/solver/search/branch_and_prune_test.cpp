@@ -227,6 +227,12 @@ TEST(BranchAndPruneLimits, RefusesWhatIsNoSystem) {
   problem.tube("x", 1);
   EXPECT_FALSE(problem.is_system());
   EXPECT_THROW(problem.solve_all(), std::invalid_argument);
+  Problem alternatives("alternatives");
+  const auto y = alternatives.real("y");
+  alternatives.constrain_at_least("c", 1,
+                                  {[&] { alternatives.constrain("a", alternatives(y) > Interval(0.0)); },
+                                   [&] { alternatives.integer("n"); }});
+  EXPECT_FALSE(alternatives.is_system());
   Problem reals("reals");
   SearchOptions options;
   options.precision = 0;
