@@ -19,7 +19,7 @@
 #include "solver/engine/propagation.h"
 #include "solver/expression/expr.h"
 #include "solver/result.h"
-#include "solver/search/branch_and_prune.h"
+#include "solver/search/search_options.h"
 
 namespace hcsp {
 
