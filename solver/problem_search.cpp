@@ -9,8 +9,8 @@ namespace hcsp {
 
 namespace {
 
-// The unknowns that some relation speaks of; the others may have any value of their domains.
-std::vector<Input> unknowns_of(const Dag& dag, const std::vector<NodeId>& relations) {
+// Of the unknowns that some relation speaks of; the others may have any value of their domains.
+std::vector<Input> inputs_of(const Dag& dag, const std::vector<NodeId>& relations) {
   return relations.empty() ? std::vector<Input>{} : Program(dag, relations).inputs();
 }
 
@@ -26,15 +26,16 @@ Result Problem::solve_all(const SearchOptions& options) {
   require(is_system(), "Problem: solve_all() is for relations between reals");
   require(options.precision > 0, "Problem: a precision of {}", options.precision);
   const double started = options.clock();
-  System system(impl_->dag, impl_->relations, unknowns_of(impl_->dag, impl_->relations));
-  for (const Input& unknown : system.unknowns) {
-    system.domains.push_back(impl_->graph.initial<Interval>(unknown.variable));
-    system.is_whole.push_back(impl_->whole.contains(unknown.variable) ? 1 : 0);
+  std::vector<System::Unknown> unknowns;
+  std::map<VariableId, std::size_t> place_of;
+  for (const Input& input : inputs_of(impl_->dag, impl_->relations)) {
+    place_of.emplace(input.variable, unknowns.size());
+    unknowns.push_back(
+        {input, impl_->graph.initial<Interval>(input.variable), impl_->whole.contains(input.variable)});
   }
+  const System system(impl_->dag, impl_->relations, unknowns);
   const SearchAnswer answer = branch_and_prune(system, options);
 
-  std::map<VariableId, std::size_t> place_of;
-  for (std::size_t v = 0; v < system.unknowns.size(); ++v) place_of.emplace(system.unknowns[v].variable, v);
   const auto variables_in = [&](const std::vector<Interval>& box) {
     return declared_domains(impl_->view(), [&](VariableId id) -> Domain {
       const auto place = place_of.find(id);
@@ -49,7 +50,7 @@ Result Problem::solve_all(const SearchOptions& options) {
   result.model = impl_->name;
   result.search.emplace();
   result.search->cells = answer.cells;
-  std::vector<Interval> around(system.unknowns.size(), Interval::empty());
+  std::vector<Interval> around(system.size(), Interval::empty());
   const auto widen = [&](const std::vector<Interval>& box) {
     for (std::size_t v = 0; v < box.size(); ++v) around[v] = join(around[v], box[v]);
   };

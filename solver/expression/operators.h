@@ -3,6 +3,7 @@
 //   forward    an enclosure of the values on a box of operands (upward rounding: interval/kernel.h);
 //   row        forward on n boxes side by side, where a batch form is faster (interval/batch.h);
 //   defined    whether the operator is defined on all of that box (`def` of IEEE 1788-2015, 11.2);
+//   continuous whether it is Lipschitz continuous there too, where that says more than `defined`;
 //   backward   contracts the operands to the part from which a value in y can come (HC4-revise);
 //   partial    the derivative with regard to operand k, as a node.
 // On tubes every operator acts pointwise, item by item: program.h runs it over ranges of items.
@@ -14,6 +15,7 @@
 #include <string_view>
 #include <type_traits>
 
+#include "domains/check.h"
 #include "domains/interval/arcs.h"
 #include "domains/interval/atan2.h"
 #include "domains/interval/batch.h"
@@ -147,6 +149,8 @@ struct Cos : Total {
 
 struct Atan2 {
   static bool defined(const I& y, const I& x, const I&) { return !(y.contains(0.0) && x.contains(0.0)); }
+  /// Off the cut along the negative axis.
+  static bool continuous(const I& y, const I& x) { return x.lo() > 0 || y.lo() > 0 || y.hi() < 0; }
   static I forward(const I& y, const I& x, const I&) { return up::atan2(y, x); }
   static void backward(const I& angle, I& y, I& x, I&) {
     if (!atan2_rev(angle, y, x)) y = x = I::empty();
@@ -389,6 +393,13 @@ I core(const I& a, const I& b, const I& c) {
   return a.is_empty() || b.is_empty() || c.is_empty() ? I::empty() : Operator::forward(a, b, c);
 }
 
+/// Whether an operator is defined and Lipschitz continuous on all of a box; steps are left to the caller.
+template <class Operator>
+bool is_continuous(const I& a, const I& b) {
+  if constexpr (requires { Operator::continuous(a, b); }) return Operator::continuous(a, b);
+  return Operator::defined(a, b, b);
+}
+
 /// Defined, and learning of its operands from its value alone, everywhere.
 template <class Operator>
 inline constexpr bool is_total = std::is_base_of_v<Total, Operator> && !std::is_same_v<Operator, IfThenElse>;
@@ -435,6 +446,28 @@ inline constexpr bool is_total = std::is_base_of_v<Total, Operator> && !std::is_
   X(logical_not, Not, "not", 1)        \
   X(if_then_else, IfThenElse, "if", 3)
 // clang-format on
+
+/// An operator, known to the compiler.
+template <Op kOp, class Operator>
+struct Known {
+  static constexpr Op op = kOp;
+  using type = Operator;
+};
+
+/// f(Known<op, its struct>{}) of an operator that is not a leaf.
+template <class F>
+decltype(auto) with_operator(Op op, F&& f) {
+  switch (op) {
+#define HCSP_KNOWN(name, type, text, arity) \
+  case Op::name:                            \
+    return f(Known<Op::name, operators::type>{});
+    HCSP_OPERATORS(HCSP_KNOWN)
+#undef HCSP_KNOWN
+    default:
+      HCSP_ASSERT(false);
+      __builtin_unreachable();
+  }
+}
 
 constexpr bool is_relation(Op op) { return op >= Op::less && op <= Op::not_equal; }
 constexpr bool is_boolean(Op op) { return op >= Op::less && op <= Op::logical_not; }

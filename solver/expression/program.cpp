@@ -201,16 +201,10 @@ template <bool kCore>
 void Evaluation::run_forward(std::size_t first, std::size_t last, std::size_t lanes) {
   HCSP_ASSERT(lanes <= kMaxLanes);
   for (const Program::Instruction& at : program_->code().subspan(first, last - first)) {
-    switch (at.op) {
-#define HCSP_FORWARD(name, type, text, arity)                                                    \
-  case Op::name:                                                                                 \
-    forward_one<operators::type, is_boolean(Op::name), is_relation(Op::name), kCore>(at, lanes); \
-    break;
-      HCSP_OPERATORS(HCSP_FORWARD)
-#undef HCSP_FORWARD
-      default:
-        HCSP_ASSERT(false);
-    }
+    with_operator(at.op, [&](auto known) {
+      using Known = decltype(known);
+      forward_one<typename Known::type, is_boolean(Known::op), is_relation(Known::op), kCore>(at, lanes);
+    });
   }
 }
 
@@ -285,17 +279,10 @@ bool Evaluation::backward(const Interval& wanted, std::size_t i, std::size_t lan
   const auto code = program_->code();
   for (std::size_t k = code.size(); k-- > 0;) {
     const Program::Instruction& at = code[k];
-    bool alive = true;
-    switch (at.op) {
-#define HCSP_BACKWARD(name, type, text, arity)                                              \
-  case Op::name:                                                                            \
-    alive = backward_one<operators::type, is_boolean(Op::name), is_relation(Op::name)>(at); \
-    break;
-      HCSP_OPERATORS(HCSP_BACKWARD)
-#undef HCSP_BACKWARD
-      default:
-        HCSP_ASSERT(false);
-    }
+    const bool alive = with_operator(at.op, [&](auto known) {
+      using Known = decltype(known);
+      return backward_one<typename Known::type, is_boolean(Known::op), is_relation(Known::op)>(at);
+    });
     if (!alive) return false;
   }
   return true;

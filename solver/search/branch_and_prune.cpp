@@ -22,20 +22,18 @@ namespace hcsp {
 
 namespace {
 
-double width_of(const Interval& x) { return x.hi() - x.lo(); }
-
 // Where a domain is cut: in the middle, or where it is unbounded, far out.
-double middle_of(const Interval& x) {
+double cut_of(const Interval& x) {
   constexpr double kFar = 1e8, kFarther = 1e3;
-  if (x.is_bounded()) return 0.5 * x.lo() + 0.5 * x.hi();
+  if (x.is_bounded()) return middle_of(x);
   if (x.is_entire()) return 0.0;
-  if (x.lo() == -kInfinity) return -middle_of(-x);
+  if (x.lo() == -kInfinity) return -cut_of(-x);
   return std::min(std::max(kFar, kFarther * x.lo()), std::numeric_limits<double>::max());
 }
 
 bool is_divisible(const Interval& x) {
-  const double middle = middle_of(x);
-  return x.lo() < middle && middle < x.hi();
+  const double cut = cut_of(x);
+  return x.lo() < cut && cut < x.hi();
 }
 
 bool lies_in(const std::vector<Interval>& a, const std::vector<Interval>& b) {
@@ -70,8 +68,9 @@ class Explorer {
         hc4_(system),
         shaving_(hc4_),
         choices_(system),
-        elimination_(system),
-        newton_(system),
+        forms_(system),
+        elimination_(forms_),
+        newton_(system, forms_),
         run_(*system.tape) {}
   Explorer(const Explorer&) = delete;
   Explorer& operator=(const Explorer&) = delete;
@@ -127,7 +126,7 @@ class Explorer {
   bool shave(std::vector<Interval>& box) {
     order_.resize(box.size());
     for (std::uint32_t v = 0; v < box.size(); ++v) order_[v] = v;
-    const std::vector<double>& smear = newton_.smear(box);
+    const std::vector<double>& smear = forms_.smear(box);
     std::stable_sort(order_.begin(), order_.end(), [&](auto u, auto v) { return smear[u] > smear[v]; });
     return std::all_of(order_.begin(), order_.end(), [&](auto v) { return shaving_.contract(box, v); });
   }
@@ -141,7 +140,7 @@ class Explorer {
 
   // The unknown with which the equations vary most, of those that are wider than the precision.
   std::optional<Cut> choose_cut(const std::vector<Interval>& box) {
-    const std::vector<double>& smear = newton_.smear(box);
+    const std::vector<double>& smear = forms_.smear(box);
     std::optional<std::uint32_t> best;
     for (std::uint32_t v = 0; v < box.size(); ++v) {
       if (!(width_of(box[v]) > options_.precision) || !is_divisible(box[v])) continue;
@@ -150,12 +149,12 @@ class Explorer {
       if (!best || is_better) best = v;
     }
     if (!best) return {};
-    return Cut{*best, middle_of(box[*best])};
+    return Cut{*best, cut_of(box[*best])};
   }
 
   // Every point is a solution.
   bool is_inner(const std::vector<Interval>& box) {
-    return newton_.equations() == 0 && whole_where_asked(box) && all_hold(box);
+    return forms_.size() == 0 && whole_where_asked(box) && all_hold(box);
   }
 
   [[nodiscard]] bool whole_where_asked(const std::vector<Interval>& box) const {
@@ -189,7 +188,7 @@ class Explorer {
       if (box[v].is_empty()) return;
     }
     if (!hc4_.contract(box)) return;
-    if (newton_.equations() > box.size()) return keep(box, Certificate::none, Reason::overdetermined);
+    if (forms_.size() > box.size()) return keep(box, Certificate::none, Reason::overdetermined);
     if (!is_within || !all_hold(box)) return keep(box, Certificate::none, Reason::boundary);
     keep(newton_.enclosure(), Certificate::unique, Reason::proven);
   }
@@ -197,7 +196,7 @@ class Explorer {
   // A box that is not cut any more: there is a solution for every value of the parameters, or nothing is
   // proven.
   void keep_small(std::vector<Interval> box) {
-    const std::size_t equations = newton_.equations();
+    const std::size_t equations = forms_.size();
     if (equations == 0) return keep(box, Certificate::none, Reason::boundary);
     if (equations >= box.size())
       return keep(box, Certificate::none, equations > box.size() ? Reason::overdetermined : Reason::singular);
@@ -216,6 +215,7 @@ class Explorer {
   Hc4 hc4_;
   Shaving shaving_;
   Choices choices_;
+  MeanValueForms forms_;
   Elimination elimination_;
   Newton newton_;
   TapeRun run_;

@@ -8,30 +8,28 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "solver/search/system.h"
+#include "solver/search/mean_value.h"
 
 namespace hcsp {
 
 class Elimination {
  public:
-  explicit Elimination(const System& system);
+  explicit Elimination(MeanValueForms& forms) : forms_(forms) {}
 
   /// Contracts a box; false when it has no solution. PRECONDITION: the thread rounds upward.
   bool contract(std::vector<Interval>& box);
 
  private:
-  bool expand(const std::vector<Interval>& box);
+  void order(const std::vector<Interval>& box);
   void eliminate(const std::vector<Interval>& box);
-  bool contract_by(Eigen::Index row, std::vector<Interval>& box);
+  bool contract_by(const MeanValueForms::Form& form, std::vector<Interval>& box);
 
-  const System& system_;
-  std::vector<std::uint32_t> equations_;
-  TapeRun run_;
-  std::vector<std::vector<Interval>> slopes_;  // by equation and unknown
-  std::vector<Interval> center_, values_, row_, terms_, sums_;
-  std::vector<double> bend_;          // by equation: how far it is from linear over the box
+  MeanValueForms& forms_;
   std::vector<std::uint32_t> order_;  // of the equations that have a mean value form, the straightest first
-  Eigen::MatrixXd middle_, combination_;  // rows of the elimination, and how the equations make them
+  std::vector<double> bend_;          // by equation: how far it is from linear over the box
+  using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  Rows middle_, combination_;  // by place in the order: what is left of it, and how the equations make that
+  std::vector<Interval> terms_, sums_;
 };
 
 }  // namespace hcsp

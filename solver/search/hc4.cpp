@@ -24,7 +24,7 @@ bool is_worth_telling(const Interval& before, const Interval& now) {
 Hc4::Hc4(const System& system)
     : system_(system),
       run_(*system.tape),
-      told_(system.unknowns.size()),
+      told_(system.size()),
       queue_(system.relations.size() + 1),
       awake_(system.relations.size()) {}
 

@@ -8,15 +8,13 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "solver/search/system.h"
+#include "solver/search/mean_value.h"
 
 namespace hcsp {
 
 class Newton {
  public:
-  explicit Newton(const System& system);
-
-  [[nodiscard]] std::size_t equations() const { return equations_.size(); }
+  Newton(const System& system, MeanValueForms& forms);
 
   enum class Outcome : std::uint8_t { nothing, contracted, empty, proven };
   /// One step on a box, which is contracted in place. PRECONDITION: the thread rounds upward.
@@ -29,30 +27,22 @@ class Newton {
   [[nodiscard]] bool is_one() const;
   [[nodiscard]] const std::vector<Interval>& enclosure() const { return image_; }
 
-  /// Whether the equations have a solution near a box for every value of the parameters in it, which
-  /// enclosure() then holds: with the box, which is contracted, every solution of the box. PRECONDITION: the
-  /// thread rounds upward.
+  /// Whether the equations have a solution near a box for every value of the parameters in it. Then
+  /// enclosure() holds these solutions, and every one in the box. PRECONDITION: the thread rounds upward.
   bool prove_some(const std::vector<Interval>& box);
-
-  /// How much the equations vary over a box with each unknown: of what each equation varies, the unknown's
-  /// share, summed over the equations (Trombettoni et al. 2011, smearSumRel).
-  const std::vector<double>& smear(const std::vector<Interval>& box);
 
  private:
   Outcome step(const std::vector<Interval>& box, std::vector<Interval>& image);
   void polish();
-  bool evaluate_jacobian(const std::vector<Interval>& box);
+  bool expand_over(const std::vector<Interval>& box);
   bool choose_square(const std::vector<Interval>& box);
   bool precondition();
 
   const System& system_;
-  std::vector<std::uint32_t> equations_;
-  TapeRun run_;
-  std::vector<std::vector<Interval>> jacobian_;  // by equation and unknown
-  std::vector<std::uint32_t> rows_, columns_;    // the equations and unknowns at hand, as many of either
-  Eigen::MatrixXd inverse_;
-  std::vector<Interval> reach_, image_, center_, values_, row_;
-  std::vector<double> smear_;
+  MeanValueForms& forms_;
+  std::vector<std::uint32_t> rows_, columns_;  // the equations and unknowns at hand, as many of either
+  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> inverse_;
+  std::vector<Interval> reach_, image_, next_;
 };
 
 }  // namespace hcsp

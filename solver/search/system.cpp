@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "solver/search/system.h"
 
-#include <algorithm>
+#include <map>
 
 namespace hcsp {
 
@@ -34,22 +34,27 @@ void sort(Dag& dag, NodeId id, Sorted& sorted) {
 
 }  // namespace
 
-System::System(Dag& graph, const std::vector<NodeId>& stated, std::vector<Input> inputs)
-    : dag(graph), unknowns(std::move(inputs)) {
+System::System(Dag& graph, const std::vector<NodeId>& stated, const std::vector<Unknown>& unknowns)
+    : dag(graph) {
+  std::vector<Input> inputs;
+  std::map<Input, std::uint32_t> place_of;
+  for (const Unknown& unknown : unknowns) {
+    place_of.emplace(unknown.input, static_cast<std::uint32_t>(inputs.size()));
+    inputs.push_back(unknown.input);
+    domains.push_back(unknown.domain);
+    is_whole.push_back(unknown.is_whole ? 1 : 0);
+  }
   Sorted sorted;
   for (const NodeId relation : stated) sort(dag, relation, sorted);
   relations = std::move(sorted.relations);
-  tape = std::make_unique<const Tape>(dag, sorted.roots, unknowns);
-  relations_of.resize(unknowns.size());
+  tape = std::make_unique<const Tape>(dag, sorted.roots, inputs);
+  relations_of.resize(size());
   for (std::uint32_t i = 0; i < relations.size(); ++i) {
     for (const std::uint32_t v : tape->variables(i)) relations_of[v].push_back(i);
   }
   for (const NodeId relation : sorted.choices) {
     Choice& choice = choices.emplace_back(Choice{relation, Program(dag, {relation}), {}});
-    for (const Input& input : choice.program.inputs()) {
-      const auto found = std::find(unknowns.begin(), unknowns.end(), input);
-      choice.unknowns.push_back(static_cast<std::uint32_t>(found - unknowns.begin()));
-    }
+    for (const Input& input : choice.program.inputs()) choice.unknowns.push_back(place_of.at(input));
   }
 }
 

@@ -26,13 +26,22 @@ struct System {
     std::vector<std::uint32_t> unknowns;  ///< by input of the program
   };
 
-  /// Sorts the conjuncts of relations; adds nodes to the graph, which outlives the system.
-  System(Dag& dag, const std::vector<NodeId>& relations, std::vector<Input> unknowns);
+  struct Unknown {
+    Input input;
+    Interval domain;
+    bool is_whole = false;
+  };
+
+  /// Sorts the conjuncts of relations between the unknowns; adds nodes to the graph, which outlives the
+  /// system.
+  System(Dag& dag, const std::vector<NodeId>& relations, const std::vector<Unknown>& unknowns);
+
+  /// Number of unknowns.
+  [[nodiscard]] std::size_t size() const { return domains.size(); }
 
   Dag& dag;
-  std::vector<Input> unknowns;
-  std::vector<Interval> domains;       ///< by unknown; to be filled in
-  std::vector<std::uint8_t> is_whole;  ///< by unknown; to be filled in
+  std::vector<Interval> domains;       ///< by unknown
+  std::vector<std::uint8_t> is_whole;  ///< by unknown
   std::vector<Relation> relations;     ///< by root of the tape
   std::vector<Choice> choices;
   std::vector<std::vector<std::uint32_t>> relations_of;  ///< by unknown: the relations that it occurs in

@@ -14,23 +14,18 @@ namespace {
 
 bool is_leaf(Op op) { return op == Op::constant || op == Op::input; }
 
-// Operators that are not defined everywhere, or jump somewhere.
-bool is_partial(Op op) {
-  switch (op) {
-    case Op::div:
-    case Op::sqrt:
-    case Op::atan2:
-    case Op::log:
-    case Op::tan:
-    case Op::asin:
-    case Op::acos:
-    case Op::pown:
-    case Op::pow:
-    case Op::root:
-      return true;
-    default:
-      return false;
-  }
+bool is_total(Op op) {
+  return with_operator(op, [](auto known) { return operators::is_total<typename decltype(known)::type>; });
+}
+
+// with_operator() of an operator between reals.
+template <class F>
+bool with_real_operator(Op op, F&& f) {
+  return with_operator(op, [&](auto known) {
+    if constexpr (!is_boolean(decltype(known)::op)) return f(known);
+    HCSP_ASSERT(false);
+    return false;
+  });
 }
 
 }  // namespace
@@ -105,7 +100,7 @@ Tape::Tape(Dag& dag, const std::vector<NodeId>& roots, const std::vector<Input>&
       if (dag[id].op == Op::input) root.variables.push_back(places.at(id));
       if (is_leaf(dag[id].op)) continue;
       root.code.push_back(instruction(id));
-      if (is_partial(dag[id].op)) root.partial.push_back(root.code.back());
+      if (!is_total(dag[id].op)) root.partial.push_back(root.code.back());
     }
     for (auto id = own.rbegin(); id != own.rend(); ++id) {
       for (const auto& [operand, slope] : chain[*id]) {
@@ -163,17 +158,8 @@ bool TapeRun::backward_one(const Tape::Instruction& at) {
 bool TapeRun::revise(std::size_t i, const Interval& wanted) {
   const std::span<const Tape::Instruction> code = tape_.code(i);
   for (const Tape::Instruction& at : code) {
-    bool alive = true;
-    switch (at.op) {
-#define HCSP_FORWARD(name, type, text, arity)                                      \
-  case Op::name:                                                                   \
-    if constexpr (!is_boolean(Op::name)) alive = forward_one<operators::type>(at); \
-    break;
-      HCSP_OPERATORS(HCSP_FORWARD)
-#undef HCSP_FORWARD
-      default:
-        HCSP_ASSERT(false);
-    }
+    const bool alive = with_real_operator(
+        at.op, [&](auto known) { return forward_one<typename decltype(known)::type>(at); });
     if (!alive) return false;
   }
   Interval& root = registers_[tape_.root(i)];
@@ -183,39 +169,19 @@ bool TapeRun::revise(std::size_t i, const Interval& wanted) {
   root = met;
   for (std::size_t k = code.size(); k-- > 0;) {
     const Tape::Instruction& at = code[k];
-    bool alive = true;
-    switch (at.op) {
-#define HCSP_BACKWARD(name, type, text, arity)                                      \
-  case Op::name:                                                                    \
-    if constexpr (!is_boolean(Op::name)) alive = backward_one<operators::type>(at); \
-    break;
-      HCSP_OPERATORS(HCSP_BACKWARD)
-#undef HCSP_BACKWARD
-      default:
-        HCSP_ASSERT(false);
-    }
+    const bool alive = with_real_operator(
+        at.op, [&](auto known) { return backward_one<typename decltype(known)::type>(at); });
     if (!alive) return false;
   }
   return true;
 }
 
-template <class Operator>
-void TapeRun::evaluate_one(const Tape::Instruction& at) {
-  registers_[at.y] = Operator::forward(registers_[at.a], registers_[at.b], registers_[at.c]);
-}
-
+// Slopes may have choices, and their conditions.
 void TapeRun::evaluate_code(std::span<const Tape::Instruction> code) {
   for (const Tape::Instruction& at : code) {
-    switch (at.op) {
-#define HCSP_EVALUATE(name, type, text, arity) \
-  case Op::name:                               \
-    evaluate_one<operators::type>(at);         \
-    break;
-      HCSP_OPERATORS(HCSP_EVALUATE)
-#undef HCSP_EVALUATE
-      default:
-        HCSP_ASSERT(false);
-    }
+    registers_[at.y] = with_operator(at.op, [&](auto known) {
+      return decltype(known)::type::forward(registers_[at.a], registers_[at.b], registers_[at.c]);
+    });
   }
 }
 
@@ -250,26 +216,9 @@ void TapeRun::gradient(std::size_t i, std::span<Interval> result) {
 bool TapeRun::is_continuous(std::size_t i) const {
   const std::span<const Tape::Instruction> partial = tape_.partial(i);
   return std::all_of(partial.begin(), partial.end(), [&](const Tape::Instruction& at) {
-    const Interval &a = registers_[at.a], &b = registers_[at.b];
-    switch (at.op) {
-      case Op::atan2:  // the cut along the negative axis
-        return operators::Atan2::defined(a, b, b) && (b.lo() > 0 || a.lo() > 0 || a.hi() < 0);
-#define HCSP_DEFINED(name, type) \
-  case Op::name:                 \
-    return operators::type::defined(a, b, b)
-        HCSP_DEFINED(div, Div);
-        HCSP_DEFINED(sqrt, Sqrt);
-        HCSP_DEFINED(log, Log);
-        HCSP_DEFINED(tan, Tan);
-        HCSP_DEFINED(asin, Asin);
-        HCSP_DEFINED(acos, Acos);
-        HCSP_DEFINED(pown, Pown);
-        HCSP_DEFINED(pow, Pow);
-        HCSP_DEFINED(root, Root);
-#undef HCSP_DEFINED
-      default:
-        return false;
-    }
+    return with_real_operator(at.op, [&](auto known) {
+      return operators::is_continuous<typename decltype(known)::type>(registers_[at.a], registers_[at.b]);
+    });
   });
 }
 

@@ -42,7 +42,7 @@ class Tape {
   [[nodiscard]] bool is_constant(std::uint32_t reg) const { return variables_ <= reg && reg < first_result_; }
   /// Constants and the registers that hold them.
   [[nodiscard]] std::span<const std::pair<std::uint32_t, Interval>> constants() const { return constants_; }
-  /// All expressions, and one alone; operands precede results.
+  /// All expressions, and one alone, whose instructions stand side by side; operands precede results.
   [[nodiscard]] std::span<const Instruction> code() const { return code_; }
   [[nodiscard]] std::span<const Instruction> code(std::size_t i) const { return roots_[i].code; }
   /// What the slopes need besides code().
@@ -96,8 +96,6 @@ class TapeRun {
   bool forward_one(const Tape::Instruction& at);
   template <class Operator>
   bool backward_one(const Tape::Instruction& at);
-  template <class Operator>
-  void evaluate_one(const Tape::Instruction& at);
   void evaluate_code(std::span<const Tape::Instruction> code);
 
   const Tape& tape_;

@@ -60,6 +60,25 @@ Place place_of(const Known& known) {
   return place;
 }
 
+// A problem to be: a known point, unknowns around it, and terms and relations of them to come.
+struct RandomSystem {
+  Random random;
+  int dim;
+  Known known;
+  Problem problem{"random"};
+  Unknowns unknowns;
+  RandomRelations make;
+  Place place;
+
+  RandomSystem(int seed, int first)
+      : random(static_cast<std::uint64_t>(seed + first)),
+        dim(random.chance(0.7) ? 2 : 4),
+        known(random, dim),
+        unknowns(problem, known),
+        make(static_cast<std::uint64_t>(seed), unknowns.x, unknowns.a),
+        place(place_of(known)) {}
+};
+
 }  // namespace
 
 // Equations f(x) == c, c an enclosure of f at the known solution, with an inequality or a choice here and
@@ -68,13 +87,8 @@ TEST(RandomSystems, KeepTheKnownSolution) {
   int tried = 0, certified = 0;
   for (int seed = 1; seed <= instances(1500); ++seed) {
     SCOPED_TRACE(seed);
-    Random random(static_cast<std::uint64_t>(seed) + 700000);
-    const int dim = random.chance(0.7) ? 2 : 4;
-    const Known known(random, dim);
-    Problem problem("system");
-    const Unknowns unknowns(problem, known);
-    RandomRelations make(static_cast<std::uint64_t>(seed), unknowns.x, unknowns.a);
-    const Place place = place_of(known);
+    RandomSystem system(seed, 700000);
+    auto& [random, dim, known, problem, unknowns, make, place] = system;
     bool is_true = true;
     const int equations = std::max(1, dim + (random.chance(0.3) ? random.integer(-1, 1) : 0));
     for (int e = 0; e < equations; ++e) {
@@ -118,13 +132,8 @@ TEST(RandomSystems, CertifyNothingWhereThereIsNothing) {
   int tried = 0;
   for (int seed = 1; seed <= instances(400); ++seed) {
     SCOPED_TRACE(seed);
-    Random random(static_cast<std::uint64_t>(seed) + 800000);
-    const int dim = random.chance(0.7) ? 2 : 4;
-    const Known known(random, dim);
-    Problem problem("infeasible");
-    const Unknowns unknowns(problem, known);
-    RandomRelations make(static_cast<std::uint64_t>(seed) + 9, unknowns.x, unknowns.a);
-    const Place place = place_of(known);
+    RandomSystem system(seed, 800000);
+    auto& [random, dim, known, problem, unknowns, make, place] = system;
     bool is_true = true;
     for (int e = 0; e < dim && is_true; ++e) {
       const Term term = make.term(2);

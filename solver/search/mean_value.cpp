@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "solver/search/mean_value.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "domains/interval/kernel.h"
+
+namespace hcsp {
+
+namespace {
+
+constexpr Interval kZero = Interval::raw(0.0, 0.0);
+
+}  // namespace
+
+MeanValueForms::MeanValueForms(const System& system) : system_(system), run_(*system.tape) {
+  for (std::uint32_t i = 0; i < system.relations.size(); ++i) {
+    if (system.relations[i].is_equation()) equations_.push_back(i);
+  }
+  const std::size_t n = system.size();
+  slopes_.assign(size(), std::vector<Interval>(n, kZero));
+  values_.resize(size());
+  has_form_.resize(size());
+  center_.resize(n);
+  combined_.slopes.resize(n);
+  smear_.resize(n);
+}
+
+void MeanValueForms::expand_over(const std::vector<Interval>& box) {
+  if (box_ == box) return;
+  box_ = box;
+  run_.evaluate(box, true);
+  for (std::size_t e = 0; e < size(); ++e) {
+    run_.gradient(equations_[e], slopes_[e]);
+    const auto has_bound = [&](std::uint32_t v) {
+      return slopes_[e][v].is_bounded() && !slopes_[e][v].is_empty();
+    };
+    const auto own = unknowns(e);
+    has_form_[e] = run_.is_continuous(equations_[e]) && std::all_of(own.begin(), own.end(), has_bound);
+  }
+}
+
+void MeanValueForms::evaluate_at_center() {
+  for (std::size_t v = 0; v < box_.size(); ++v) {
+    const double middle = middle_of(box_[v]);
+    center_[v] = Interval::raw(middle, middle);
+  }
+  run_.evaluate(center_, false);
+  for (std::size_t e = 0; e < size(); ++e)
+    values_[e] = up::sub(run_.value(equations_[e]), system_.relations[equations_[e]].wanted);
+}
+
+const MeanValueForms::Form& MeanValueForms::combine(std::span<const std::uint32_t> equations,
+                                                    std::span<const double> factors) {
+  auto& [value, slopes] = combined_;
+  value = kZero;
+  std::fill(slopes.begin(), slopes.end(), kZero);
+  for (std::size_t k = 0; k < equations.size(); ++k) {
+    if (factors[k] == 0.0) continue;
+    const std::uint32_t e = equations[k];
+    const Interval factor = Interval::raw(factors[k], factors[k]);
+    value = up::add(value, up::mul(factor, values_[e]));
+    for (const std::uint32_t v : unknowns(e)) slopes[v] = up::add(slopes[v], up::mul(factor, slopes_[e][v]));
+  }
+  return combined_;
+}
+
+const std::vector<double>& MeanValueForms::smear(const std::vector<Interval>& box) {
+  expand_over(box);
+  std::fill(smear_.begin(), smear_.end(), 0.0);
+  for (std::size_t e = 0; e < size(); ++e) {
+    const auto part = [&](std::uint32_t v) {
+      constexpr double kMost = 1e100;
+      const double slope = slopes_[e][v].mag();
+      return slope == 0.0 ? 0.0 : std::min(slope * width_of(box[v]), kMost);
+    };
+    double total = 0.0;
+    for (const std::uint32_t v : unknowns(e)) total += part(v);
+    if (total == 0.0) continue;
+    for (const std::uint32_t v : unknowns(e)) smear_[v] += part(v) / total;
+  }
+  return smear_;
+}
+
+}  // namespace hcsp
