@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lang/evaluate/terms.h"
+
+#include <algorithm>
+#include <array>
+
+#include "domains/interval/functions.h"
+
+namespace hcsp::lang {
+
+namespace {
+
+/// A function of one real, of numbers and of expressions.
+struct ScalarFunction {
+  BuiltIn id;
+  Interval (*of_number)(const Interval&);
+  hcsp::Expr (*of_expression)(hcsp::Expr);
+};
+
+constexpr std::array kScalarFunctions{
+#define HCSP_SCALAR(name) ScalarFunction{BuiltIn::name, hcsp::name, hcsp::name}
+    HCSP_SCALAR(sqr),  HCSP_SCALAR(sqrt), HCSP_SCALAR(abs),  HCSP_SCALAR(exp),  HCSP_SCALAR(log),
+    HCSP_SCALAR(sin),  HCSP_SCALAR(cos),  HCSP_SCALAR(tan),  HCSP_SCALAR(asin), HCSP_SCALAR(acos),
+    HCSP_SCALAR(atan), HCSP_SCALAR(sinh), HCSP_SCALAR(cosh), HCSP_SCALAR(tanh), HCSP_SCALAR(floor),
+    HCSP_SCALAR(ceil), HCSP_SCALAR(sign),
+#undef HCSP_SCALAR
+};
+
+constexpr int kMostExactFactors = 64;
+
+// A term as an expression of another's system.
+hcsp::Expr expression(const Term& term, const Term& other) {
+  if (const auto* written = std::get_if<hcsp::Expr>(&term)) return *written;
+  Dag& dag = std::get<hcsp::Expr>(other).dag();
+  return {dag, dag.constant(std::get<Number>(term).enclosure)};
+}
+
+}  // namespace
+
+hcsp::Expr expression_of(Problem& problem, const Term& term) {
+  if (const auto* number = std::get_if<Number>(&term)) return problem.constant(number->enclosure);
+  return std::get<hcsp::Expr>(term);
+}
+
+Term negate(const Term& a) {
+  if (const auto* number = std::get_if<Number>(&a)) return -*number;
+  return -std::get<hcsp::Expr>(a);
+}
+
+Term operate(Operator op, const Term& a, const Term& b) {
+  const auto* x = std::get_if<Number>(&a);
+  const auto* y = std::get_if<Number>(&b);
+  if (x != nullptr && y != nullptr) {
+    switch (op) {
+      case Operator::add:
+        return *x + *y;
+      case Operator::subtract:
+        return *x - *y;
+      case Operator::multiply:
+        return *x * *y;
+      default:
+        return *x / *y;
+    }
+  }
+  const hcsp::Expr u = expression(a, b);
+  const hcsp::Expr v = expression(b, a);
+  switch (op) {
+    case Operator::add:
+      return u + v;
+    case Operator::subtract:
+      return u - v;
+    case Operator::multiply:
+      return u * v;
+    default:
+      return u / v;
+  }
+}
+
+Term scalar_function(BuiltIn function, const Term& a) {
+  const auto& entry = *std::find_if(kScalarFunctions.begin(), kScalarFunctions.end(),
+                                    [&](const ScalarFunction& known) { return known.id == function; });
+  const auto* number = std::get_if<Number>(&a);
+  if (number == nullptr) return entry.of_expression(std::get<hcsp::Expr>(a));
+  if (function == BuiltIn::sqr && number->exact) return *number * *number;
+  return Number::of(entry.of_number(number->enclosure));
+}
+
+Term scalar_function(BuiltIn function, const Term& a, const Term& b) {
+  const auto* x = std::get_if<Number>(&a);
+  const auto* y = std::get_if<Number>(&b);
+  if (x != nullptr && y != nullptr) {
+    switch (function) {
+      case BuiltIn::min:
+        return Number::of(min(x->enclosure, y->enclosure));
+      case BuiltIn::max:
+        return Number::of(max(x->enclosure, y->enclosure));
+      default:
+        return Number::of(atan2(x->enclosure, y->enclosure));
+    }
+  }
+  const hcsp::Expr u = expression(a, b);
+  const hcsp::Expr v = expression(b, a);
+  switch (function) {
+    case BuiltIn::min:
+      return min(u, v);
+    case BuiltIn::max:
+      return max(u, v);
+    default:
+      return atan2(u, v);
+  }
+}
+
+Term power_of(const Term& base, int exponent) {
+  if (exponent == 1) return base;
+  if (exponent == 2) return scalar_function(BuiltIn::sqr, base);
+  const auto* number = std::get_if<Number>(&base);
+  if (number == nullptr) return pown(std::get<hcsp::Expr>(base), exponent);
+  const Number rounded = Number::of(pown(number->enclosure, exponent));
+  if (!number->exact || exponent < 0 || exponent > kMostExactFactors) return rounded;
+  Number product = *Number::parse("1");
+  for (int i = 0; i < exponent; ++i) product = product * *number;
+  return product.exact ? product : rounded;
+}
+
+Term power_of(const Term& base, const Term& exponent) {
+  const auto* number = std::get_if<Number>(&exponent);
+  const auto whole = number != nullptr && number->exact ? number->exact->as_int() : std::nullopt;
+  if (whole) return power_of(base, *whole);
+  const auto* known = std::get_if<Number>(&base);
+  if (known != nullptr && number != nullptr) return Number::of(pow(known->enclosure, number->enclosure));
+  return pow(expression(base, exponent), expression(exponent, base));
+}
+
+Term root_of(const Term& a, int degree) {
+  if (const auto* number = std::get_if<Number>(&a)) return Number::of(rootn(number->enclosure, degree));
+  return root(std::get<hcsp::Expr>(a), degree);
+}
+
+Term sum_of(const Value& terms) {
+  Term total = terms.front();
+  for (std::size_t i = 1; i < terms.size(); ++i) total = operate(Operator::add, total, terms[i]);
+  return total;
+}
+
+Term product_of(const Value& terms) {
+  Term product = terms.empty() ? Term(*Number::parse("1")) : terms.front();
+  for (std::size_t i = 1; i < terms.size(); ++i) product = operate(Operator::multiply, product, terms[i]);
+  return product;
+}
+
+Term extremum(BuiltIn function, const Value& terms) {
+  Term result = terms.front();
+  for (std::size_t i = 1; i < terms.size(); ++i) result = scalar_function(function, result, terms[i]);
+  return result;
+}
+
+Term dot(const Value& a, const Value& b) {
+  Value products;
+  for (std::size_t i = 0; i < a.size(); ++i) products.push_back(operate(Operator::multiply, a[i], b[i]));
+  return sum_of(products);
+}
+
+Value matrix_product(const Value& a, const Value& b, std::size_t inner, std::size_t columns) {
+  Value result;
+  for (std::size_t row = 0; row < a.size() / inner; ++row) {
+    const auto begin = a.begin() + static_cast<std::ptrdiff_t>(row * inner);
+    const Value of_row(begin, begin + static_cast<std::ptrdiff_t>(inner));
+    for (std::size_t column = 0; column < columns; ++column) {
+      Value of_column;
+      for (std::size_t k = 0; k < inner; ++k) of_column.push_back(b[k * columns + column]);
+      result.push_back(dot(of_row, of_column));
+    }
+  }
+  return result;
+}
+
+Value transposed(const Value& a, std::size_t rows, std::size_t columns) {
+  Value result;
+  for (std::size_t j = 0; j < columns; ++j) {
+    for (std::size_t i = 0; i < rows; ++i) result.push_back(a[i * columns + j]);
+  }
+  return result;
+}
+
+std::optional<bool> known_relation(Operator op, const Term& a, const Term& b) {
+  const auto* x = std::get_if<Number>(&a);
+  const auto* y = std::get_if<Number>(&b);
+  if (x == nullptr || y == nullptr) return {};
+  const Interval difference = (*x - *y).enclosure;
+  const bool is_zero = difference.lo() == 0 && difference.hi() == 0;
+  const bool below = difference.hi()<0, above = difference.lo()> 0;
+  if (!is_zero && !below && !above) return {};
+  switch (op) {
+    case Operator::equal:
+      return is_zero;
+    case Operator::not_equal:
+      return !is_zero;
+    case Operator::less:
+      return below;
+    case Operator::less_equal:
+      return !above;
+    case Operator::greater:
+      return above;
+    default:
+      return !below;
+  }
+}
+
+hcsp::Expr compare(Operator op, const hcsp::Expr& a, const hcsp::Expr& b) {
+  switch (op) {
+    case Operator::equal:
+      return a == b;
+    case Operator::not_equal:
+      return a != b;
+    case Operator::less:
+      return a < b;
+    case Operator::less_equal:
+      return a <= b;
+    case Operator::greater:
+      return a > b;
+    default:
+      return a >= b;
+  }
+}
+
+}  // namespace hcsp::lang
