@@ -41,7 +41,7 @@ struct Type {
   const Symbol* data = nullptr;  ///< the table that a column belongs to
   std::uint32_t columns = 0;     ///< of a matrix
   bool whole = false;            ///< a whole number
-  std::vector<Extent> arrays;    ///< the index ranges of an array of these, outermost first
+  std::vector<Extent> arrays = {};    ///< the index ranges of an array of these, outermost first
 
   [[nodiscard]] bool is_error() const { return kind == Kind::error; }
   [[nodiscard]] bool is(Kind k) const { return kind == k; }

@@ -8,6 +8,7 @@
 #include <array>
 #include <cctype>
 #include <cstdio>
+#include <map>
 
 #include "lang/tool/run.h"
 
@@ -15,17 +16,41 @@ namespace hcsp::tool {
 
 namespace {
 
-// Options of the language's page that later versions bring.
-struct Later {
-  std::string memory_limit, checkpoint, resume;
-};
-
 struct Written {
   std::vector<std::string> parameters;
   std::vector<std::string> data;
 };
 
-void declare(CLI::App& app, Options& options, Written& written, Later& later) {
+const std::map<std::string, SearchOrder> kOrders{{"depth", SearchOrder::depth_first},
+                                                 {"best", SearchOrder::best_first}};
+const std::map<std::string, Bisector> kBisectors{{"smear", Bisector::smear},
+                                                 {"smear-max", Bisector::smear_max},
+                                                 {"largest", Bisector::largest_first},
+                                                 {"round-robin", Bisector::round_robin}};
+
+// Options that `solve propagate` has no use for.
+constexpr std::array kOfSearch{"--precision", "--order", "--bisector", "--checkpoint", "--resume"};
+
+void declare_search(CLI::App& app, Options& options) {
+  app.add_option("--precision", options.precision,
+                 "Of a search, in place of the model's: no box is cut finer")
+      ->check(CLI::PositiveNumber)
+      ->option_text("P");
+  app.add_option("--order", options.order, "Of a search: depth (first) or best (first)")
+      ->transform(CLI::Transformer(kOrders))
+      ->option_text("ORDER");
+  app.add_option("--bisector", options.bisector,
+                 "Of a search, which unknown is cut: smear, smear-max, largest or round-robin")
+      ->transform(CLI::Transformer(kBisectors))
+      ->option_text("WHICH");
+  app.add_option("--checkpoint", options.checkpoint,
+                 "Keep the state of a search in FILE as it goes, so that --resume can go on from there")
+      ->option_text("FILE");
+  app.add_option("--resume", options.resume, "Go on with a search that was stopped or killed")
+      ->option_text("FILE");
+}
+
+void declare(CLI::App& app, Options& options, Written& written) {
   app.add_option("MODEL", options.model, "The model, a .hcsp file")->option_text(" ");
   app.add_option("--set", written.parameters, "NAME=VALUE: replace the value of a param (may repeat)")
       ->allow_extra_args(false)
@@ -43,11 +68,11 @@ void declare(CLI::App& app, Options& options, Written& written, Later& later) {
   app.add_option("--time-limit", options.time_limit, "Stop after S seconds; the domains are still guaranteed")
       ->check(CLI::PositiveNumber)
       ->option_text("S");
-  app.add_option("--memory-limit", later.memory_limit, "Not supported yet")->option_text("MB");
-  app.add_option("--precision", options.precision,
-                 "Of `solve all`, in place of the model's: no box is cut finer")
+  app.add_option("--memory-limit", options.memory_limit,
+                 "Stop when the process holds more than MB megabytes, as at a time limit")
       ->check(CLI::PositiveNumber)
-      ->option_text("P");
+      ->option_text("MB");
+  declare_search(app, options);
   app.add_flag("--check", options.check_only, "Read and check the model and its data, solve nothing");
   app.add_flag("--format", options.format,
                "Print the model in the canonical layout; -o FILE.hcsp writes it, to the model itself too");
@@ -61,8 +86,6 @@ void declare(CLI::App& app, Options& options, Written& written, Later& later) {
       ->option_text("FILE.json");
   app.add_option("--truth", options.truth, "True trajectories to draw: columns t, x1, x2, ...")
       ->option_text("FILE.csv");
-  app.add_option("--checkpoint", later.checkpoint, "Not supported yet")->option_text("FILE");
-  app.add_option("--resume", later.resume, "Not supported yet")->option_text("FILE");
   app.add_flag("--quiet", options.quiet, "Print nothing but errors");
   app.set_version_flag("--version", "hcsp-solve " HCSP_VERSION);
   app.footer(
@@ -95,16 +118,7 @@ bool has_ending(const std::string& path, std::string_view option,
 }
 
 // What CLI11 cannot check.
-bool is_usable(const Options& options, const Later& later) {
-  const std::array<std::pair<bool, std::string_view>, 3> missing{
-      {{!later.memory_limit.empty(), "--memory-limit"},
-       {!later.checkpoint.empty(), "--checkpoint"},
-       {!later.resume.empty(), "--resume"}}};
-  for (const auto& [asked, name] : missing) {
-    if (!asked) continue;
-    fmt::print(stderr, "hcsp-solve: {} is not supported yet\n", name);
-    return false;
-  }
+bool is_usable(const Options& options) {
   if (options.explain.empty() && options.model.empty()) {
     fmt::print(stderr, "hcsp-solve: which model? Try hcsp-solve --help\n");
     return false;
@@ -129,9 +143,8 @@ std::string extension(const std::string& path) {
 ParsedOptions parse_options(int argc, char** argv) {
   Options options;
   Written written;
-  Later later;
   CLI::App app("Solves hybrid constraint problems with guaranteed answers.", "hcsp-solve");
-  declare(app, options, written, later);
+  declare(app, options, written);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -139,10 +152,12 @@ ParsedOptions parse_options(int argc, char** argv) {
     fmt::print(stderr, "hcsp-solve: {}\nTry hcsp-solve --help\n", error.what());
     return {{}, kWrongUsage};
   }
-  const bool good = is_usable(options, later) &&
-                    split(written.parameters, "--set", options.compile.parameters) &&
+  const bool good = is_usable(options) && split(written.parameters, "--set", options.compile.parameters) &&
                     split(written.data, "--data", options.compile.data_files);
   if (!good) return {{}, kWrongUsage};
+  for (const char* const name : kOfSearch) {
+    if (app.count(name) > 0) options.of_search.emplace_back(name);
+  }
   return {std::move(options), 0};
 }
 

@@ -16,7 +16,13 @@ struct Options {
   std::vector<std::string> outputs;
   unsigned threads = 1;
   double time_limit = 0.0;
-  double precision = 0.0;  // of the model where 0
+  double memory_limit = 0.0;  // megabytes; 0 is none
+  double precision = 0.0;     // of the model where 0
+  SearchOrder order = SearchOrder::depth_first;
+  Bisector bisector = Bisector::smear;
+  std::string checkpoint;
+  std::string resume;
+  std::vector<std::string> of_search;  // those given that only a search can make use of
   bool check_only = false;
   bool format = false;
   bool quiet = false;

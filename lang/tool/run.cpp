@@ -8,11 +8,13 @@
 #include <atomic>
 #include <csignal>
 #include <cstdio>
-#include <fstream>
+#include <optional>
 
 #include "lang/data/file.h"
 #include "lang/syntax/format.h"
+#include "lang/tool/files.h"
 #include "lang/tool/summary.h"
+#include "lang/tool/watch.h"
 #include "solver/report/csv.h"
 #include "solver/report/graph.h"
 #include "solver/report/html.h"
@@ -32,22 +34,6 @@ extern "C" void on_signal(int signal) {
   std::signal(signal, SIG_DFL);
 }
 
-bool write(const std::string& path, const std::string& text) {
-  std::ofstream stream(path, std::ios::binary);
-  stream.write(text.data(), static_cast<std::streamsize>(text.size()));
-  stream.close();
-  if (stream) return true;
-  fmt::print(stderr, "hcsp-solve: cannot write {}\n", path);
-  return false;
-}
-
-// Better to learn it before the run than after.
-bool can_write(const std::string& path) {
-  if (path.empty() || std::ofstream(path, std::ios::app)) return true;
-  fmt::print(stderr, "hcsp-solve: cannot write {}\n", path);
-  return false;
-}
-
 std::string written_as(const std::string& path, const Result& result, const Presentation& presentation) {
   const std::string ending = extension(path);
   if (ending == ".csv") return to_csv(result);
@@ -62,6 +48,8 @@ bool draw_graph(const Options& options, const ContractorGraph& graph) {
   return write(options.graph, extension(options.graph) == ".dot" ? to_dot(graph) : graph_svg(graph));
 }
 
+bool shows_progress(const Options& options) { return !options.quiet && isatty(STDERR_FILENO) != 0; }
+
 PropagationOptions propagation_options(const Options& options, double data_seconds) {
   PropagationOptions propagation;
   propagation.threads = options.threads;
@@ -72,7 +60,7 @@ PropagationOptions propagation_options(const Options& options, double data_secon
   propagation.keep_snapshots =
       std::any_of(options.outputs.begin(), options.outputs.end(),
                   [](const std::string& path) { return extension(path) == ".html"; });
-  if (!options.quiet && isatty(STDERR_FILENO) != 0) {
+  if (shows_progress(options)) {
     propagation.progress = [](std::uint64_t pass, double seconds) {
       constexpr double kWorthTelling = 0.5;
       if (seconds > kWorthTelling) fmt::print(stderr, "\rpass {}, {:.1f} s", pass, seconds);
@@ -81,19 +69,44 @@ PropagationOptions propagation_options(const Options& options, double data_secon
   return propagation;
 }
 
-SearchOptions search_options(const Options& options, const lang::CompiledModel& model) {
+SearchOptions search_options(const Options& options, const lang::CompiledModel& model,
+                             SearchProgress& progress) {
   SearchOptions search;
   search.precision = options.precision > 0 ? options.precision : model.precision;
+  search.order = options.order;
+  search.bisector = options.bisector;
   search.threads = options.threads;
   search.time_limit = options.time_limit;
   search.spent_before = model.data_seconds;
   search.cancel = &stop_asked;
+  search.progress = &progress;
+  if (!options.checkpoint.empty())
+    search.checkpoint = [&](const std::string& state) { write_at_once(options.checkpoint, state); };
   return search;
 }
 
-Result solve(const Options& options, const lang::CompiledModel& model) {
-  if (model.goal == lang::SolveItem::Goal::all)
-    return model.problem->solve_all(search_options(options, model));
+// Nothing, after a message, where there is no going on from the checkpoint.
+std::optional<Result> search(const Options& options, const lang::CompiledModel& model) {
+  SearchProgress progress;
+  SearchOptions search = search_options(options, model, progress);
+  std::string error;
+  auto state = options.resume.empty() ? std::string() : lang::read_file(options.resume, error);
+  try {
+    if (state) {
+      search.resume = std::move(*state);
+      const Watch watch(options.memory_limit, stop_asked, shows_progress(options) ? &progress : nullptr);
+      return model.problem->solve_all(search);
+    }
+  } catch (const std::invalid_argument& refused) {
+    error = refused.what();
+  }
+  fmt::print(stderr, "hcsp-solve: --resume {}: {}\n", options.resume, error);
+  return {};
+}
+
+std::optional<Result> solve(const Options& options, const lang::CompiledModel& model) {
+  if (model.goal != lang::SolveItem::Goal::propagate) return search(options, model);
+  const Watch watch(options.memory_limit, stop_asked, nullptr);
   const PropagationOptions propagation = propagation_options(options, model.data_seconds);
   const Result result = model.problem->propagate(propagation);
   if (propagation.progress) fmt::print(stderr, "\r\033[K");
@@ -123,10 +136,11 @@ int solve_and_tell(const Options& options, const lang::CompiledModel& model) {
   if (!writable) return kWrongInput;
   std::signal(SIGINT, on_signal);
   std::signal(SIGTERM, on_signal);
-  const Result result = solve(options, model);
-  if (!options.quiet) fmt::print("{}", summary(result, model.shown));
-  if (!write_outputs(options, result, {model.shown, {}})) return kWrongInput;
-  return result.status == Status::limit ? kStopped : kFinished;
+  const std::optional<Result> result = solve(options, model);
+  if (!result) return kWrongInput;
+  if (!options.quiet) fmt::print("{}", summary(*result, model.shown));
+  if (!write_outputs(options, *result, {model.shown, {}})) return kWrongInput;
+  return result->status == Status::limit ? kStopped : kFinished;
 }
 
 int explain(const std::string& code) {
@@ -164,6 +178,7 @@ int format(const Options& options) {
 int run(const Options& options) {
   if (!options.explain.empty()) return explain(options.explain);
   if (options.format) return format(options);
+  if (!can_write(options.checkpoint)) return kWrongInput;
   lang::Compilation compilation = lang::compile_file(options.model, options.compile);
   if (options.dump == "ast") fmt::print("{}", lang::dump(*compilation.tree));
   if (options.dump == "types") fmt::print("{}", compilation.types);
@@ -171,9 +186,11 @@ int run(const Options& options) {
     fmt::print(stderr, "{}", compilation.diagnostics.text());
     return kWrongInput;
   }
-  if (options.precision > 0 && compilation.model->goal == lang::SolveItem::Goal::propagate) {
-    fmt::print(stderr, "hcsp-solve: --precision: `solve propagate` has none\n");
-    return kWrongUsage;
+  if (compilation.model->goal == lang::SolveItem::Goal::propagate) {
+    for (const std::string_view option : options.of_search) {
+      fmt::print(stderr, "hcsp-solve: {}: `solve propagate` searches nothing\n", option);
+      return kWrongUsage;
+    }
   }
   if (!draw_graph(options, compilation.model->problem->graph())) return kWrongInput;
   if (options.check_only || !options.dump.empty()) return kFinished;

@@ -1,22 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "solver/search/branch_and_prune.h"
 
-#include <tbb/enumerable_thread_specific.h>
-#include <tbb/global_control.h>
-#include <tbb/task_arena.h>
-#include <tbb/task_group.h>
-
 #include <algorithm>
 #include <cmath>
 #include <optional>
 
 #include "domains/interval/kernel.h"
-#include "domains/rounding.h"
+#include "solver/search/checkpoint.h"
 #include "solver/search/choices.h"
 #include "solver/search/elimination.h"
 #include "solver/search/hc4.h"
 #include "solver/search/newton.h"
 #include "solver/search/shaving.h"
+#include "solver/search/tree_search.h"
 
 namespace hcsp {
 
@@ -75,24 +71,27 @@ class Explorer {
   Explorer(const Explorer&) = delete;
   Explorer& operator=(const Explorer&) = delete;
 
-  struct Cut {
-    std::uint32_t unknown;
-    double at;
+  /// A box, of which the unknown that was cut last may be all that is new.
+  struct Node {
+    std::vector<Interval> box;
+    std::optional<std::uint32_t> cut_last;
+    double priority = 0.0;  // the widest first
   };
-  /// Contracts a box, of which the unknown that was cut last may be all that is new; tells where to cut what
-  /// is left. Nothing is left to cut where there is no solution, or where one is found.
-  std::optional<Cut> explore(std::vector<Interval>& box, std::optional<std::uint32_t> cut_last) {
+  /// Contracts a box and cuts what is left in two. Nothing is left to cut where there is no solution, or
+  /// where one is found.
+  void explore(Node& node, std::vector<Node>& children) {
+    std::vector<Interval>& box = node.box;
     ++cells;
-    if (!contract(box, cut_last)) return {};
-    if (is_inner(box)) return keep(box, Certificate::inner, Reason::proven), std::nullopt;
-    const std::optional<Cut> cut = choose_cut(box);
-    if (!cut) keep_small(box);
-    return cut;
+    if (!contract(box, node.cut_last)) return;
+    if (is_inner(box)) return keep(box, Certificate::inner, Reason::proven);
+    const std::optional<std::uint32_t> cut = choose_cut(box, node.cut_last);
+    if (!cut) return keep_small(box);
+    const double at = cut_of(box[*cut]);
+    children.push_back(half(box, *cut, Interval::raw(box[*cut].lo(), at)));
+    children.push_back(half(box, *cut, Interval::raw(at, box[*cut].hi())));
   }
-  void leave(std::vector<Interval> box) { unexplored.push_back(std::move(box)); }
 
   std::vector<Leaf> leaves;
-  std::vector<std::vector<Interval>> unexplored;
   std::uint64_t cells = 0;
 
  private:
@@ -138,18 +137,38 @@ class Explorer {
     });
   }
 
-  // The unknown with which the equations vary most, of those that are wider than the precision.
-  std::optional<Cut> choose_cut(const std::vector<Interval>& box) {
-    const std::vector<double>& smear = forms_.smear(box);
-    std::optional<std::uint32_t> best;
-    for (std::uint32_t v = 0; v < box.size(); ++v) {
-      if (!(width_of(box[v]) > options_.precision) || !is_divisible(box[v])) continue;
-      const bool is_better = best && (smear[v] > smear[*best] ||
-                                      (smear[v] == smear[*best] && width_of(box[v]) > width_of(box[*best])));
-      if (!best || is_better) best = v;
+  static Node half(const std::vector<Interval>& box, std::uint32_t cut, const Interval& part) {
+    Node node{box, cut};
+    node.box[cut] = part;
+    for (const Interval& side : node.box) node.priority = std::min(node.priority, -width_of(side));
+    return node;
+  }
+
+  // Of the unknowns that are wider than the precision: which is cut.
+  std::optional<std::uint32_t> choose_cut(const std::vector<Interval>& box,
+                                          std::optional<std::uint32_t> cut_last) {
+    const auto is_worth_cutting = [&](std::uint32_t v) {
+      return width_of(box[v]) > options_.precision && is_divisible(box[v]);
+    };
+    const auto n = static_cast<std::uint32_t>(box.size());
+    if (options_.bisector == Bisector::round_robin) {
+      for (std::uint32_t k = 1; k <= n; ++k) {
+        const std::uint32_t v = (cut_last.value_or(n - 1) + k) % n;
+        if (is_worth_cutting(v)) return v;
+      }
+      return {};
     }
-    if (!best) return {};
-    return Cut{*best, cut_of(box[*best])};
+    const std::vector<double>* smear = nullptr;
+    if (options_.bisector == Bisector::smear) smear = &forms_.smear(box);
+    if (options_.bisector == Bisector::smear_max) smear = &forms_.smear_max(box);
+    std::optional<std::uint32_t> best;
+    const auto merit = [&](std::uint32_t v) {
+      return std::pair(smear != nullptr ? (*smear)[v] : 0.0, width_of(box[v]));
+    };
+    for (std::uint32_t v = 0; v < n; ++v) {
+      if (is_worth_cutting(v) && (!best || merit(v) > merit(*best))) best = v;
+    }
+    return best;
   }
 
   // Every point is a solution.
@@ -225,54 +244,65 @@ class Explorer {
 class Search {
  public:
   Search(const System& system, const SearchOptions& options)
-      : system_(system),
-        options_(options),
-        started_(options.clock()),
-        explorers_([&] { return Explorer(system, options); }) {}
+      : system_(system), options_(options), tree_(options, [&] { return Explorer(system, options); }) {}
 
   SearchAnswer run() {
-    const std::size_t threads = std::max(options_.threads, 1U);
-    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
-    tbb::task_arena arena(static_cast<int>(threads));
-    arena.execute([&] {
-      tbb::task_group tasks;
-      tasks.run_and_wait([&] { descend(tasks, system_.domains, {}); });
-    });
+    const std::uint64_t mark = mark_of(system_, "all", options_);
+    std::vector<Explorer::Node> roots;
+    if (options_.resume.empty()) {
+      roots.push_back({system_.domains, {}});
+    } else {
+      roots = resume(opened(options_.resume, mark));
+    }
+    if (options_.checkpoint) {
+      tree_.run(std::move(roots), [&](const auto& open) { options_.checkpoint(sealed(state(open), mark)); });
+    } else {
+      tree_.run(std::move(roots));
+    }
     return gather();
   }
 
  private:
-  [[nodiscard]] bool is_over() const {
-    if (options_.cancel != nullptr && options_.cancel->load(std::memory_order_relaxed)) return true;
-    return options_.time_limit > 0 && options_.clock() - started_ >= options_.time_limit;
+  nlohmann::json state(const std::vector<Explorer::Node>& open) {
+    auto boxes = nlohmann::json::array(), leaves = nlohmann::json::array();
+    for (const Explorer::Node& node : open)
+      boxes.push_back({json_of(node.box), node.cut_last ? static_cast<std::int64_t>(*node.cut_last) : -1});
+    std::uint64_t cells = cells_before_;
+    const auto add = [&](const Leaf& leaf) {
+      leaves.push_back(
+          {json_of(leaf.found.box), leaf.found.certificate, leaf.found.reason, json_of(leaf.reach)});
+    };
+    std::for_each(leaves_before_.begin(), leaves_before_.end(), add);
+    for (const Explorer& explorer : tree_.explorers()) {
+      cells += explorer.cells;
+      std::for_each(explorer.leaves.begin(), explorer.leaves.end(), add);
+    }
+    return {{"open", boxes}, {"leaves", leaves}, {"cells", cells}};
   }
 
-  // One half of a box after another; the other halves are other tasks.
-  void descend(tbb::task_group& tasks, std::vector<Interval> box, std::optional<std::uint32_t> cut_last) {
-    const RoundUpward guard;
-    Explorer& explorer = explorers_.local();
-    for (;;) {
-      if (is_over()) return explorer.leave(std::move(box));
-      const auto cut = explorer.explore(box, cut_last);
-      if (!cut) return;
-      const std::uint32_t v = cut->unknown;
-      cut_last = v;
-      std::vector<Interval> upper = box;
-      upper[v] = Interval::raw(cut->at, box[v].hi());
-      box[v] = Interval::raw(box[v].lo(), cut->at);
-      tasks.run([this, &tasks, upper = std::move(upper), v] { descend(tasks, upper, v); });
+  std::vector<Explorer::Node> resume(const nlohmann::json& state) {
+    cells_before_ = state.at("cells").get<std::uint64_t>();
+    for (const auto& leaf : state.at("leaves"))
+      leaves_before_.push_back(
+          {{box_of(leaf[0]), leaf[1].get<Certificate>(), leaf[2].get<Reason>()}, box_of(leaf[3])});
+    std::vector<Explorer::Node> open;
+    for (const auto& node : state.at("open")) {
+      const auto cut_last = node[1].get<std::int64_t>();
+      open.push_back({box_of(node[0]), {}});
+      if (cut_last >= 0) open.back().cut_last = static_cast<std::uint32_t>(cut_last);
     }
+    return open;
   }
 
   SearchAnswer gather() {
     SearchAnswer answer;
-    std::vector<Leaf> leaves;
-    for (Explorer& explorer : explorers_) {
+    answer.cells = cells_before_;
+    std::vector<Leaf> leaves = std::move(leaves_before_);
+    for (Explorer& explorer : tree_.explorers()) {
       answer.cells += explorer.cells;
       std::move(explorer.leaves.begin(), explorer.leaves.end(), std::back_inserter(leaves));
-      std::move(explorer.unexplored.begin(), explorer.unexplored.end(),
-                std::back_inserter(answer.unexplored));
     }
+    for (const Explorer::Node& node : tree_.open()) answer.unexplored.push_back(node.box);
     std::sort(answer.unexplored.begin(), answer.unexplored.end(), comes_before);
     std::sort(leaves.begin(), leaves.end(), [](const Leaf& a, const Leaf& b) {
       if (a.found.box == b.found.box) return comes_before(a.reach, b.reach);
@@ -314,8 +344,9 @@ class Search {
 
   const System& system_;
   const SearchOptions& options_;
-  double started_;
-  tbb::enumerable_thread_specific<Explorer> explorers_;
+  TreeSearch<Explorer> tree_;
+  std::vector<Leaf> leaves_before_;  // those of the state that was resumed
+  std::uint64_t cells_before_ = 0;
 };
 
 }  // namespace

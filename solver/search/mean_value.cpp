@@ -66,19 +66,30 @@ const MeanValueForms::Form& MeanValueForms::combine(std::span<const std::uint32_
   return combined_;
 }
 
+// How much an equation varies over the box of expand_over() with an unknown.
+double MeanValueForms::variation(std::size_t e, std::uint32_t v) const {
+  constexpr double kMost = 1e100;
+  const double slope = slopes_[e][v].mag();
+  return slope == 0.0 ? 0.0 : std::min(slope * width_of(box_[v]), kMost);
+}
+
 const std::vector<double>& MeanValueForms::smear(const std::vector<Interval>& box) {
   expand_over(box);
   std::fill(smear_.begin(), smear_.end(), 0.0);
   for (std::size_t e = 0; e < size(); ++e) {
-    const auto part = [&](std::uint32_t v) {
-      constexpr double kMost = 1e100;
-      const double slope = slopes_[e][v].mag();
-      return slope == 0.0 ? 0.0 : std::min(slope * width_of(box[v]), kMost);
-    };
     double total = 0.0;
-    for (const std::uint32_t v : unknowns(e)) total += part(v);
+    for (const std::uint32_t v : unknowns(e)) total += variation(e, v);
     if (total == 0.0) continue;
-    for (const std::uint32_t v : unknowns(e)) smear_[v] += part(v) / total;
+    for (const std::uint32_t v : unknowns(e)) smear_[v] += variation(e, v) / total;
+  }
+  return smear_;
+}
+
+const std::vector<double>& MeanValueForms::smear_max(const std::vector<Interval>& box) {
+  expand_over(box);
+  std::fill(smear_.begin(), smear_.end(), 0.0);
+  for (std::size_t e = 0; e < size(); ++e) {
+    for (const std::uint32_t v : unknowns(e)) smear_[v] = std::max(smear_[v], variation(e, v));
   }
   return smear_;
 }

@@ -53,8 +53,12 @@ class MeanValueForms {
   /// How much the equations vary over a box with each unknown: of what each equation varies, the unknown's
   /// share, summed over the equations (Trombettoni et al. 2011, smearSumRel).
   const std::vector<double>& smear(const std::vector<Interval>& box);
+  /// The most that one equation varies with each unknown (Kearfott 1996, maximal smear).
+  const std::vector<double>& smear_max(const std::vector<Interval>& box);
 
  private:
+  [[nodiscard]] double variation(std::size_t e, std::uint32_t v) const;
+
   const System& system_;
   std::vector<std::uint32_t> equations_;  // among the relations
   TapeRun run_;

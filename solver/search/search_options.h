@@ -37,7 +37,7 @@ struct SearchOptions {
   /// Takes the state of the search every so many seconds, to be kept: with it as `resume` a later search of
   /// the same problem goes on from there, and its answer holds what both found.
   std::function<void(const std::string&)> checkpoint = {};
-  double checkpoint_period = 1.0;
+  double checkpoint_period = 0.05;
   std::string resume = {};  ///< std::invalid_argument where it is no state of this problem
   Clock clock = steady_clock();
 };

@@ -34,8 +34,8 @@ void sort(Dag& dag, NodeId id, Sorted& sorted) {
 
 }  // namespace
 
-System::System(Dag& graph, const std::vector<NodeId>& stated, const std::vector<Unknown>& unknowns)
-    : dag(graph) {
+System::System(Dag& graph, const std::vector<NodeId>& relations_stated, const std::vector<Unknown>& unknowns)
+    : dag(graph), stated(relations_stated) {
   std::vector<Input> inputs;
   std::map<Input, std::uint32_t> place_of;
   for (const Unknown& unknown : unknowns) {

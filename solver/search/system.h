@@ -40,6 +40,7 @@ struct System {
   [[nodiscard]] std::size_t size() const { return domains.size(); }
 
   Dag& dag;
+  std::vector<NodeId> stated;          ///< the relations as they were given
   std::vector<Interval> domains;       ///< by unknown
   std::vector<std::uint8_t> is_whole;  ///< by unknown
   std::vector<Relation> relations;     ///< by root of the tape

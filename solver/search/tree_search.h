@@ -47,10 +47,14 @@ class TreeSearch {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
                                     static_cast<std::size_t>(threads_));
     tbb::task_arena arena(threads_);
+    double period = options_.checkpoint_period;
     while (!open_.empty() && !is_stopped()) {
-      next_rest_ = at_rest ? options_.clock() + options_.checkpoint_period : 0.0;
+      next_rest_ = at_rest ? options_.clock() + period : 0.0;
       arena.execute([&] { explore_until_rest(); });
-      if (at_rest) at_rest(open_);
+      if (!at_rest) continue;
+      const double rested = options_.clock();
+      at_rest(open_);
+      period = std::max(options_.checkpoint_period, kWorkToRest * (options_.clock() - rested));
     }
     return open_.empty();
   }
@@ -61,6 +65,8 @@ class TreeSearch {
   auto& explorers() { return explorers_; }
 
  private:
+  static constexpr double kWorkToRest = 20.0;  // what is kept may have grown large
+
   [[nodiscard]] bool is_stopped() const {
     if (options_.cancel != nullptr && options_.cancel->load(std::memory_order_relaxed)) return true;
     return options_.time_limit > 0 && options_.clock() - started_ >= options_.time_limit;

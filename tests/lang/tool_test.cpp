@@ -40,8 +40,9 @@ class Tool : public testing::Test {
     result.status = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
     return result;
   }
-  std::string model(const std::string& items) const {
-    std::ofstream(folder_ / "model.hcsp") << whole_model(items);
+  std::string model(const std::string& items, const std::string& goal = "") const {
+    std::ofstream(folder_ / "model.hcsp")
+        << (goal.empty() ? whole_model(items) : "model m;\n" + items + goal);
     return "model.hcsp";
   }
   [[nodiscard]] std::string text_of(const std::string& name) const { return read_text(folder_ / name); }
@@ -142,12 +143,41 @@ TEST_F(Tool, RefusesWrongUsage) {
        {std::string(), std::string("--no-such-option"), name + " --threads 0", name + " --threads two",
         name + " --time-limit -1", name + " -o result", name + " -o result.txt", name + " --set r",
         name + " --set =1", name + " --graph g.png", name + " --format -o x.json", name + " --precision 0.1",
-        name + " --memory-limit 100", name + " --checkpoint c", name + " --resume c", name + " " + name,
+        name + " --memory-limit 0", name + " --checkpoint c", name + " --resume c",
+        name + " --bisector largest", name + " --order depth", name + " " + name,
         std::string("--explain E999")}) {
     const Finished result = run(arguments);
     EXPECT_EQ(result.status, 2) << arguments;
     EXPECT_THAT(result.text, testing::StartsWith("hcsp-solve: ")) << arguments;
   }
+}
+
+// A covering of the sphere, which has no end in reasonable time.
+const char* const kSphere = "var x, y, z : real in [-1, 1];\nconstraint s: x^2 + y^2 + z^2 == 1;\n";
+
+TEST_F(Tool, StopsAtALimitWithWhatItHas) {
+  const std::string name = model(kSphere, "solve all precision 1e-4;");
+  for (const char* limit : {" --memory-limit 30", " --time-limit 0.05"}) {
+    const Finished result = run(name + limit + " -o limit.json");
+    EXPECT_EQ(result.status, 3) << limit;
+    EXPECT_THAT(result.text, HasSubstr("unexplored: "));
+    const auto answer = nlohmann::json::parse(text_of("limit.json"));
+    EXPECT_EQ(answer["status"], "limit");
+    EXPECT_FALSE(answer["unexplored"].empty());
+  }
+}
+
+TEST_F(Tool, GoesOnFromACheckpoint) {
+  const std::string name = model(kSphere, "solve all precision 0.3;");
+  const Finished whole = run(name);
+  ASSERT_EQ(run(name + " --checkpoint c --resume c").status, 0);  // there is none yet
+  const Finished resumed = run(name + " --resume c");
+  const auto without_time = [](const std::string& text) { return text.substr(text.find('\n')); };
+  EXPECT_EQ(without_time(resumed.text), without_time(whole.text));
+  const Finished other = run(name + " --precision 0.2 --resume c");
+  EXPECT_EQ(other.status, 1);
+  EXPECT_THAT(other.text, HasSubstr("--resume c: the checkpoint is of another model"));
+  EXPECT_EQ(run(name + " --resume no_such_file").status, 1);
 }
 
 TEST_F(Tool, SaysThatItCannotWrite) {
