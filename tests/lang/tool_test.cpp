@@ -40,9 +40,8 @@ class Tool : public testing::Test {
     result.status = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
     return result;
   }
-  std::string model(const std::string& items, const std::string& goal = "") const {
-    std::ofstream(folder_ / "model.hcsp")
-        << (goal.empty() ? whole_model(items) : "model m;\n" + items + goal);
+  std::string model(const std::string& items) const {
+    std::ofstream(folder_ / "model.hcsp") << whole_model(items);
     return "model.hcsp";
   }
   [[nodiscard]] std::string text_of(const std::string& name) const { return read_text(folder_ / name); }
@@ -155,8 +154,8 @@ TEST_F(Tool, RefusesWrongUsage) {
 // A covering of the sphere, which has no end in reasonable time.
 const char* const kSphere = "var x, y, z : real in [-1, 1];\nconstraint s: x^2 + y^2 + z^2 == 1;\n";
 
-TEST_F(Tool, StopsAtALimitWithWhatItHas) {
-  const std::string name = model(kSphere, "solve all precision 1e-4;");
+TEST_F(Tool, StopsASearchAtALimitWithWhatItHas) {
+  const std::string name = model(std::string(kSphere) + "solve all precision 1e-4;");
   for (const char* limit : {" --memory-limit 30", " --time-limit 0.05"}) {
     const Finished result = run(name + limit + " -o limit.json");
     EXPECT_EQ(result.status, 3) << limit;
@@ -168,7 +167,7 @@ TEST_F(Tool, StopsAtALimitWithWhatItHas) {
 }
 
 TEST_F(Tool, GoesOnFromACheckpoint) {
-  const std::string name = model(kSphere, "solve all precision 0.3;");
+  const std::string name = model(std::string(kSphere) + "solve all precision 0.3;");
   const Finished whole = run(name);
   ASSERT_EQ(run(name + " --checkpoint c --resume c").status, 0);  // there is none yet
   const Finished resumed = run(name + " --resume c");
