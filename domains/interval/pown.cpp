@@ -81,19 +81,22 @@ Words is_moderate(const Bounds& x, int n) {
   return ((size >= 1 / most) & (size <= most)) | (size == 0.0) | (size == kInfinity);
 }
 
-/// The double r with r^n < x < s^n for the next double s, found from a guess and proven by the powers; none
-/// where that is too close to tell, as for an exact root, or where a power might overflow. For 2 <= n <=
-/// kMostFactors.
-std::optional<double> root_below(double x, int n) {
+/// [r, s] with r^n < x < s^n for neighbouring doubles, or the root itself where it is a double: found from a
+/// guess and proven by the powers; none where that is too close to tell, or where a power might overflow. For
+/// 2 <= n <= kMostFactors.
+std::optional<Interval> around_root(double x, int n) {
   constexpr double kLeast = 0x1p-900, kMost = 0x1p900, kError = 0x1p-88;
   constexpr int kMostSteps = 4;
   if (!(x >= kLeast && x <= kMost)) return {};
   double root = std::pow(x, 1.0 / n);
   for (int step = 0; step < kMostSteps; ++step) {
-    const Pair power = power_of(Bounds{root, next_up(root)}, n, Words{});
+    const Bounds candidates{root, next_up(root)};
+    const Pair power = power_of(candidates, n, Words{});
     const Bounds above = (power.hi - x) + power.lo;
-    if (!both(magnitude(above) > x * kError)) return {};
-    if (above[0] < 0 && above[1] > 0) return root;
+    const auto is_exact = (above == 0.0) & is_short(candidates, n);
+    if (is_exact[0] != 0) return Interval::raw(root, root);
+    if (!both((magnitude(above) > x * kError) | is_exact)) return {};
+    if (above[0] < 0 && above[1] > 0) return Interval::raw(root, next_up(root));
     root = above[0] > 0 ? next_down(root) : next_up(root);
   }
   return {};
@@ -102,9 +105,9 @@ std::optional<double> root_below(double x, int n) {
 /// The root of x rounded upward, or -x rounded downward, as a bound (-lo, hi) wants it.
 std::optional<double> root_above(double x, int n) {
   if (x == 0 || x == kInfinity || x == -kInfinity) return x;
-  const auto below = root_below(std::abs(x), n);
-  if (!below) return {};
-  return x > 0 ? next_up(*below) : -*below;
+  const auto root = around_root(std::abs(x), n);
+  if (!root) return {};
+  return x > 0 ? root->hi() : -root->lo();
 }
 
 }  // namespace

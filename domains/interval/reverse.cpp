@@ -43,6 +43,7 @@ Interval pown_rev(const Interval& c, const Interval& x, int n) {
   if (n == 0) return c.contains(1.0) ? x : Interval::empty();
   if (n == 1)
     return upward([](const Interval& power, const Interval& base) { return meet(power, base); }, c, x);
+  if (n > 0 && leq(pown(x, n), c)) return x;  // a power costs less than a root
   if (n % 2 == 0) return abs_rev(rootn(c, n), x);
   return upward(
       [n](const Interval& power, const Interval& base) {

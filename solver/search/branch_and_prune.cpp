@@ -217,6 +217,7 @@ class Explorer {
   void keep_small(std::vector<Interval> box) {
     const std::size_t equations = forms_.size();
     if (equations == 0) return keep(box, Certificate::none, Reason::boundary);
+    if (newton_.prove_alone(box, options_.precision)) return keep_alone();
     if (equations >= box.size())
       return keep(box, Certificate::none, equations > box.size() ? Reason::overdetermined : Reason::singular);
     if (newton_.prove_some(box) && lies_in(newton_.enclosure(), system_.domains) &&

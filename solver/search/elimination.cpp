@@ -21,10 +21,9 @@ Eigen::Index at(std::size_t i) { return static_cast<Eigen::Index>(i); }
 
 bool Elimination::contract(std::vector<Interval>& box) {
   if (forms_.size() < 2 || !is_bounded(box)) return true;
-  forms_.expand_over(box);
+  forms_.expand_from_center(box);
   order(box);
   if (order_.size() < 2) return true;
-  forms_.evaluate_at_center();
   eliminate(box);
   for (Eigen::Index k = 0; k < combination_.rows(); ++k) {
     const std::span<const double> factors(combination_.row(k).data(), order_.size());

@@ -30,22 +30,41 @@ MeanValueForms::MeanValueForms(const System& system) : system_(system), run_(*sy
 void MeanValueForms::expand_over(const std::vector<Interval>& box) {
   if (box_ == box) return;
   box_ = box;
+  find_center(box);
   run_.evaluate(box, true);
   for (std::size_t e = 0; e < size(); ++e) {
     run_.gradient(equations_[e], slopes_[e]);
-    const auto has_bound = [&](std::uint32_t v) {
-      return slopes_[e][v].is_bounded() && !slopes_[e][v].is_empty();
-    };
-    const auto own = unknowns(e);
-    has_form_[e] = run_.is_continuous(equations_[e]) && std::all_of(own.begin(), own.end(), has_bound);
+    see_whether_form_holds(e);
   }
 }
 
-void MeanValueForms::evaluate_at_center() {
-  for (std::size_t v = 0; v < box_.size(); ++v) {
-    const double middle = middle_of(box_[v]);
+void MeanValueForms::expand_from_center(const std::vector<Interval>& box) {
+  box_.clear();
+  find_center(box);
+  run_.evaluate_from(center_, box);
+  for (std::size_t e = 0; e < size(); ++e) {
+    values_[e] = up::sub(run_.value_at_center(equations_[e]), system_.relations[equations_[e]].wanted);
+    run_.slopes(equations_[e], slopes_[e]);
+    see_whether_form_holds(e);
+  }
+}
+
+void MeanValueForms::find_center(const std::vector<Interval>& box) {
+  for (std::size_t v = 0; v < box.size(); ++v) {
+    const double middle = middle_of(box[v]);
     center_[v] = Interval::raw(middle, middle);
   }
+}
+
+void MeanValueForms::see_whether_form_holds(std::size_t e) {
+  const auto own = unknowns(e);
+  has_form_[e] =
+      run_.is_continuous(equations_[e]) && std::all_of(own.begin(), own.end(), [&](std::uint32_t v) {
+        return slopes_[e][v].is_bounded() && !slopes_[e][v].is_empty();
+      });
+}
+
+void MeanValueForms::evaluate_at_center() {
   run_.evaluate(center_, false);
   for (std::size_t e = 0; e < size(); ++e)
     values_[e] = up::sub(run_.value(equations_[e]), system_.relations[equations_[e]].wanted);

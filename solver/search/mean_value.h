@@ -31,15 +31,18 @@ class MeanValueForms {
     return system_.tape->variables(equations_[e]);
   }
 
-  /// Expands the slopes over a box; told of the same one again, they are there.
+  /// Expands the gradients over a box; told of the same one again, they are there.
   void expand_over(const std::vector<Interval>& box);
-  /// Whether the mean value theorem holds of an equation over the box of expand_over().
+  /// Expands slopes over a bounded box from its centre, where the equations are evaluated too. They are
+  /// narrower than gradients, and tell as much of where solutions can be, but not that one is alone.
+  void expand_from_center(const std::vector<Interval>& box);
+  /// Whether the form holds of an equation over the box of the last expansion.
   [[nodiscard]] bool has_form(std::size_t e) const { return has_form_[e] != 0; }
   /// By unknown; 0 for those that the equation does not depend on. What is nowhere defined, like the slope of
   /// a root at 0, is empty.
   [[nodiscard]] const std::vector<Interval>& slopes(std::size_t e) const { return slopes_[e]; }
 
-  /// Evaluates the equations at the centre of the box of expand_over().
+  /// Evaluates the equations at the centre of the box of the last expansion.
   void evaluate_at_center();
   [[nodiscard]] const Interval& center(std::size_t v) const { return center_[v]; }
 
@@ -57,12 +60,15 @@ class MeanValueForms {
   const std::vector<double>& smear_max(const std::vector<Interval>& box);
 
  private:
+  void find_center(const std::vector<Interval>& box);
+  void see_whether_form_holds(std::size_t e);
   [[nodiscard]] double variation(std::size_t e, std::uint32_t v) const;
 
   const System& system_;
   std::vector<std::uint32_t> equations_;  // among the relations
   TapeRun run_;
-  std::vector<Interval> box_, center_, values_;
+  std::vector<Interval> box_;  // of the gradients that are there, if any
+  std::vector<Interval> center_, values_;
   std::vector<std::vector<Interval>> slopes_;
   std::vector<std::uint8_t> has_form_;
   Form combined_;

@@ -118,6 +118,26 @@ Newton::Outcome Newton::contract(std::vector<Interval>& box) {
   return outcome;
 }
 
+// A box of rounding errors' width is too narrow for the image of its surroundings to lie in it: it is given
+// more and more room (epsilon inflation, Rump 1999).
+bool Newton::prove_alone(const std::vector<Interval>& box, double farthest) {
+  constexpr double kFirst = 1e-12, kMore = 16.0, kNearZero = 1e-3;
+  if (rows_.size() != box.size() || forms_.size() != box.size() || !is_bounded(box)) return false;
+  for (double room = kFirst; room <= farthest; room *= kMore) {
+    for (std::size_t v = 0; v < box.size(); ++v) {
+      const double margin = room * std::max(box[v].mag(), kNearZero) + width_of(box[v]);
+      reach_[v] = system_.is_whole[v] != 0 ? box[v] : up::add(box[v], Interval::raw(-margin, margin));
+    }
+    const Outcome outcome = step(reach_, image_);
+    if (outcome == Outcome::nothing) return false;
+    if (outcome == Outcome::proven) {
+      polish();
+      return true;
+    }
+  }
+  return false;
+}
+
 // The unknowns that are solved for get room; how much they need depends on how the parameters move them.
 bool Newton::prove_some(const std::vector<Interval>& box) {
   if (rows_.empty() || !is_bounded(box) || !expand_over(box) || !choose_square(box)) return false;

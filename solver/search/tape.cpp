@@ -6,6 +6,7 @@
 #include <map>
 
 #include "domains/check.h"
+#include "solver/expression/curvature.h"
 #include "solver/expression/operators.h"
 
 namespace hcsp {
@@ -26,6 +27,30 @@ bool with_real_operator(Op op, F&& f) {
     HCSP_ASSERT(false);
     return false;
   });
+}
+
+Tape::Slope::Kind kind_of(const Dag& dag, NodeId y, NodeId operand, NodeId slope) {
+  using Kind = Tape::Slope::Kind;
+  const DagNode &node = dag[y], &value = dag[slope];
+  if (value.op == Op::constant && value.value == Interval::raw(1.0, 1.0)) return Kind::one;
+  if (value.op == Op::constant && value.value == Interval::raw(-1.0, -1.0)) return Kind::minus_one;
+  switch (node.op) {
+    case Op::sqr:
+      return Kind::square;
+    case Op::mul:
+      return Kind::factor;
+    case Op::div:
+      return operand == node.operands[1] && operand != node.operands[0] ? Kind::divisor : Kind::derivative;
+    default:
+      return operator_entry(node.op).arity == 1 || node.op == Op::pown || node.op == Op::root
+                 ? Kind::function
+                 : Kind::derivative;
+  }
+}
+
+// y = op(a) of one operand, or of one and an exponent.
+Interval forward_of(Op op, const Interval& a, const Interval& exponent) {
+  return with_operator(op, [&](auto known) { return decltype(known)::type::forward(a, exponent, exponent); });
 }
 
 }  // namespace
@@ -104,20 +129,21 @@ Tape::Tape(Dag& dag, const std::vector<NodeId>& roots, const std::vector<Input>&
     }
     for (auto id = own.rbegin(); id != own.rend(); ++id) {
       for (const auto& [operand, slope] : chain[*id]) {
-        const DagNode& value = dag[slope];
-        const bool is_one = value.op == Op::constant && value.value == Interval::raw(1.0, 1.0);
-        const bool is_minus_one = value.op == Op::constant && value.value == Interval::raw(-1.0, -1.0);
-        root.slopes.push_back({is_one         ? Slope::Kind::one
-                               : is_minus_one ? Slope::Kind::minus_one
-                                              : Slope::Kind::value,
-                               places.at(*id), places.at(operand), places.at(slope)});
+        const DagNode& y = dag[*id];
+        const auto exponent = operator_entry(y.op).arity == 2 ? y.operands[1] : y.operands[0];
+        root.slopes.push_back({kind_of(dag, *id, operand, slope), y.op, places.at(*id), places.at(operand),
+                               places.at(slope), places.at(exponent)});
       }
     }
   }
 }
 
 TapeRun::TapeRun(const Tape& tape)
-    : tape_(tape), registers_(tape.registers()), adjoints_(tape.registers()), narrowed_(tape.registers()) {
+    : tape_(tape),
+      registers_(tape.registers()),
+      center_(tape.registers()),
+      adjoints_(tape.registers()),
+      narrowed_(tape.registers()) {
   for (const auto& [reg, value] : tape_.constants()) registers_[reg] = value;
 }
 
@@ -191,7 +217,9 @@ void TapeRun::evaluate(std::span<const Interval> box, bool with_slopes) {
   if (with_slopes) evaluate_code(tape_.slope_code());
 }
 
-void TapeRun::gradient(std::size_t i, std::span<Interval> result) {
+// From the root down to the variables.
+template <class SlopeOf>
+void TapeRun::accumulate(std::size_t i, std::span<Interval> result, SlopeOf slope_of) {
   const Interval zero = Interval::raw(0.0, 0.0);
   for (const std::uint32_t v : tape_.variables(i)) adjoints_[v] = zero;
   for (const Tape::Instruction& at : tape_.code(i)) adjoints_[at.y] = zero;
@@ -207,10 +235,60 @@ void TapeRun::gradient(std::size_t i, std::span<Interval> result) {
         a = up::sub(a, y);
         break;
       default:
-        a = up::add(a, up::mul(y, registers_[slope.value]));
+        a = up::add(a, up::mul(y, slope_of(slope)));
     }
   }
   for (const std::uint32_t v : tape_.variables(i)) result[v] = adjoints_[v];
+}
+
+void TapeRun::gradient(std::size_t i, std::span<Interval> result) {
+  accumulate(i, result, [&](const Tape::Slope& slope) { return registers_[slope.value]; });
+}
+
+void TapeRun::evaluate_from(std::span<const Interval> center, std::span<const Interval> box) {
+  evaluate(center, false);
+  std::copy(registers_.begin(), registers_.end(), center_.begin());
+  evaluate(box, true);
+}
+
+void TapeRun::slopes(std::size_t i, std::span<Interval> result) {
+  accumulate(i, result, [&](const Tape::Slope& slope) { return slope_from_center(slope); });
+}
+
+// With a', b', y' the values at the centre: aa - a'a' = (a + a')(a - a'); ab - a'b' is the mean of b and b'
+// times a - a' and that of a and a' times b - b'; y/a - y'/a' = (y - y')/a - (y'/a')/a (a - a').
+Interval TapeRun::slope_from_center(const Tape::Slope& slope) const {
+  switch (slope.kind) {
+    case Tape::Slope::Kind::square:
+      return up::add(registers_[slope.a], center_[slope.a]);
+    case Tape::Slope::Kind::factor:
+      return up::mul(Interval::raw(0.5, 0.5), up::add(registers_[slope.value], center_[slope.value]));
+    case Tape::Slope::Kind::divisor:
+      return -up::div(center_[slope.y], registers_[slope.a]);
+    case Tape::Slope::Kind::function:
+      return slope_of_function(slope);
+    default:
+      return registers_[slope.value];
+  }
+}
+
+// The slope of the chord from the centre rises with its other end where the function is convex, and falls
+// where it is concave.
+Interval TapeRun::slope_of_function(const Tape::Slope& slope) const {
+  const Interval &a = registers_[slope.a], &exponent = registers_[slope.exponent];
+  const Interval& derivative = registers_[slope.value];
+  const int curved = curvature(slope.op, a, exponent, registers_[slope.y]);
+  if (curved == 0) return derivative;
+  const auto chord_to = [&](double end) {
+    const Interval point = Interval::raw(end, end);
+    return up::div(up::sub(forward_of(slope.op, point, exponent), center_[slope.y]),
+                   up::sub(point, center_[slope.a]));
+  };
+  const Interval at_lo = chord_to(a.lo()), at_hi = chord_to(a.hi());
+  if (at_lo.is_empty() || at_hi.is_empty()) return derivative;
+  const Interval chords =
+      curved > 0 ? Interval::raw(at_lo.lo(), at_hi.hi()) : Interval::raw(at_hi.lo(), at_lo.hi());
+  return meet(chords, derivative);
 }
 
 bool TapeRun::is_continuous(std::size_t i) const {

@@ -23,11 +23,14 @@ class Tape {
     std::uint8_t arity;
     std::uint32_t y, a, b, c;  // registers; unused operands repeat a
   };
-  /// dy/da of an instruction: 1, -1, or the value of a register.
+  /// How y depends on its operand a: with the slope 1 or -1, or with the derivative in the register `value`.
+  /// Of some, differences from a centre tell more (TapeRun::slopes): the square of a; a times the register
+  /// `value`; what is divided by a; a function of one operand.
   struct Slope {
-    enum class Kind : std::uint8_t { one, minus_one, value };
+    enum class Kind : std::uint8_t { one, minus_one, derivative, square, factor, divisor, function };
     Kind kind;
-    std::uint32_t y, a, value;
+    Op op;
+    std::uint32_t y, a, value, exponent;  // of powers
   };
 
   /// Adds nodes of derivatives to the graph. Every input of the roots is one of `variables`, whose registers
@@ -87,6 +90,14 @@ class TapeRun {
   /// After evaluate() with slopes: the gradient of root i on the box, by variable; those that it does not
   /// depend on are left alone.
   void gradient(std::size_t i, std::span<Interval> result);
+
+  /// The values of all roots at a point of a box, and what slopes() needs besides. Forgets start().
+  void evaluate_from(std::span<const Interval> center, std::span<const Interval> box);
+  [[nodiscard]] const Interval& value_at_center(std::size_t i) const { return center_[tape_.root(i)]; }
+  /// After evaluate_from(): f(x) - f(center) lies in slopes (x - center) for every x of the box where root i
+  /// is defined between the two (Krawczyk, Neumaier 1985; Ratz 1996 on convex functions). Narrower than the
+  /// gradient, by half where f is a polynomial of degree 2.
+  void slopes(std::size_t i, std::span<Interval> result);
   /// After evaluate(): whether root i is defined and Lipschitz continuous on all of the box.
   [[nodiscard]] bool is_continuous(std::size_t i) const;
 
@@ -97,9 +108,13 @@ class TapeRun {
   template <class Operator>
   bool backward_one(const Tape::Instruction& at);
   void evaluate_code(std::span<const Tape::Instruction> code);
+  template <class SlopeOf>
+  void accumulate(std::size_t i, std::span<Interval> result, SlopeOf slope_of);
+  [[nodiscard]] Interval slope_from_center(const Tape::Slope& slope) const;
+  [[nodiscard]] Interval slope_of_function(const Tape::Slope& slope) const;
 
   const Tape& tape_;
-  std::vector<Interval> registers_, adjoints_;
+  std::vector<Interval> registers_, center_, adjoints_;
   std::vector<std::uint8_t> narrowed_;  // by register: no longer what forward gave
 };
 
