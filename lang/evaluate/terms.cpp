@@ -36,19 +36,10 @@ const Number* number_in(const Term& term) { return std::get_if<Number>(&term); }
 std::pair<hcsp::Expr, hcsp::Expr> expressions(const Term& a, const Term& b) {
   const auto lifted = [](const Term& term, Dag& dag) {
     const Number* number = number_in(term);
-    return number == nullptr ? std::get<hcsp::Expr>(term)
-                             : hcsp::Expr(dag, dag.constant(number->enclosure));
+    return number == nullptr ? std::get<hcsp::Expr>(term) : hcsp::Expr(dag, dag.constant(number->enclosure));
   };
   Dag& dag = std::get<hcsp::Expr>(number_in(a) == nullptr ? a : b).dag();
   return {lifted(a, dag), lifted(b, dag)};
-}
-
-std::optional<int> whole_value(const Number& number) {
-  if (number.exact) return number.exact->as_int();
-  const double value = number.enclosure.lo();
-  const bool is_whole = number.enclosure.is_point() && value == std::floor(value) &&
-                        std::abs(value) <= std::numeric_limits<int>::max();
-  return is_whole ? std::optional(static_cast<int>(value)) : std::nullopt;
 }
 
 Term whole_power(const Term& base, int exponent) {
@@ -68,6 +59,14 @@ Term whole_power(const Term& base, int exponent) {
 hcsp::Expr expression_of(Problem& problem, const Term& term) {
   if (const Number* number = number_in(term)) return problem.constant(number->enclosure);
   return std::get<hcsp::Expr>(term);
+}
+
+std::optional<int> whole_value(const Number& number) {
+  if (number.exact) return number.exact->as_int();
+  const double value = number.enclosure.lo();
+  const bool is_whole = number.enclosure.is_point() && value == std::floor(value) &&
+                        std::abs(value) <= std::numeric_limits<int>::max();
+  return is_whole ? std::optional(static_cast<int>(value)) : std::nullopt;
 }
 
 Term negate(const Term& a) {

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // What can be done with terms, in whichever language they were written: numbers are computed with for as long
-// as everything is known, exactly while decimals fit, and expressions of a Problem are built from then on. The
-// expressions among the operands belong to one Problem. A constant that does not exist is an empty number.
+// as everything is known, exactly while decimals fit, and expressions of a Problem are built from then on.
+// The expressions among the operands belong to one Problem. A constant that does not exist is an empty
+// number.
 #pragma once
 
 #include <optional>
@@ -16,6 +17,9 @@ namespace hcsp::lang {
 /// A constant of the Problem, where the term is a number.
 hcsp::Expr expression_of(Problem& problem, const Term& term);
 
+/// The value if it is known to be a whole number, one that an int can hold.
+std::optional<int> whole_value(const Number& number);
+
 Term negate(const Term& a);
 /// One of + - * /.
 Term operate(Operator op, const Term& a, const Term& b);
@@ -27,8 +31,8 @@ Term scalar_function(BuiltIn function, const Term& a, const Term& b);
 Term root_of(const Term& a, int degree);
 /// A whole exponent, by its value, is one of repeated products; any other is exp(exponent*log(base)).
 Term power_of(const Term& base, const Term& exponent);
-Term sum_of(const Value& terms);        ///< of one term at least
-Term product_of(const Value& terms);    ///< 1 of none
+Term sum_of(const Value& terms);      ///< of one term at least
+Term product_of(const Value& terms);  ///< 1 of none
 Term dot(const Value& a, const Value& b);
 /// The min or max of one term at least.
 Term extremum(BuiltIn function, const Value& terms);
