@@ -55,8 +55,8 @@ Tensor Evaluator::call(const Expr& expr) {
   if (found != functions_.end() && found->second < callable_)
     return call_of(program_.functions[found->second], found->second, expr);
   if (found != functions_.end()) {
-    diagnostics_.report(Code::recursion, name.range, name.text)
-        .note("a function can call those that are declared above it");
+    const Code code = found->second == callable_ ? Code::recursion : Code::unknown_function;
+    diagnostics_.report(code, name.range, name.text).note("a function can call those above it");
     return {};
   }
   return built_in(expr, name.text);

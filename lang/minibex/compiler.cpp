@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "lang/model/type.h"
+
 namespace hcsp::lang::minibex {
 
 std::unique_ptr<Problem> Compiler::run() {
@@ -11,7 +13,8 @@ std::unique_ptr<Problem> Compiler::run() {
   for (const Declaration& declaration : program_.variables) {
     if (!is_new(declaration.name)) continue;
     variables_.names.emplace(declaration.name.text, Binding{});
-    if (const auto shape = evaluator_.shape(declaration)) shapes_.emplace(declaration.name.text, *shape);
+    const auto shape = evaluator_.shape(declaration);
+    if (shape && has_room(declaration, *shape)) shapes_.emplace(declaration.name.text, *shape);
   }
   if (diagnostics_.any()) return nullptr;
   number_components();
@@ -27,6 +30,14 @@ std::unique_ptr<Problem> Compiler::run() {
 bool Compiler::is_new(const Name& name) {
   if (declared_.insert(name.text).second) return true;
   diagnostics_.report(Code::declared_twice, name.range, name.text);
+  return false;
+}
+
+// All sizes together are bounded.
+bool Compiler::has_room(const Declaration& declaration, const Shape& shape) {
+  components_ += shape.first * shape.second;
+  if (components_ <= kMostComponents) return true;
+  diagnostics_.report(Code::bad_size, declaration.name.range, kMostComponents, components_);
   return false;
 }
 
@@ -56,7 +67,7 @@ void Compiler::constant(const Declaration& declaration) {
   if (!is_new(declaration.name)) return;
   Binding& binding = evaluator_.constants().names[declaration.name.text];
   const auto shape = evaluator_.shape(declaration);
-  if (!shape) return;
+  if (!shape || !has_room(declaration, *shape)) return;
   const Tensor known = evaluator_.constant(*declaration.value);
   const bool is_interval = evaluator_.made_of_intervals();
   Tensor value = spread(declaration, *shape, known);

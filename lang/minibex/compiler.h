@@ -32,6 +32,7 @@ class Compiler {
   using Shape = std::pair<std::size_t, std::size_t>;
 
   bool is_new(const Name& name);
+  bool has_room(const Declaration& declaration, const Shape& shape);
   void add_type(const Name& name, const Shape& shape, std::string_view what);
   void constant(const Declaration& declaration);
   void variable(const Declaration& declaration);
@@ -70,6 +71,7 @@ class Compiler {
   std::set<NodeId> whole_nodes_;
   std::optional<hcsp::Expr> objective_;
   std::string types_;
+  std::size_t components_ = 0;
   std::map<std::size_t, std::size_t> named_;  // by line: how many constraints it has so far
 };
 

@@ -43,21 +43,24 @@ Tensor Evaluator::counted(int value) { return Term(*Number::parse(std::to_string
 
 // ---- Entries.
 
-bool Evaluator::take_step(const Expr& expr) {
-  if (++steps_ == kMostSteps) diagnostics_.report(Code::too_large, expr.range, kMostSteps);
-  if (depth_ >= kDeepestEvaluation && steps_ < kMostSteps) {
-    diagnostics_.report(Code::too_deep, expr.range, kDeepestNesting, kDeepestTree);
-    steps_ = kMostSteps;  // one report is enough
-  }
+bool Evaluator::take_steps(const Expr& expr, std::uint64_t count) {
+  if (steps_ >= kMostSteps) return false;  // one report is enough
+  steps_ += std::min(count, kMostSteps);
+  if (steps_ >= kMostSteps) diagnostics_.report(Code::too_large, expr.range, kMostSteps);
   return steps_ < kMostSteps;
 }
 
 Tensor Evaluator::value(const Expr& expr) {
-  if (!take_step(expr)) return {};
+  if (!take_steps(expr, 1)) return {};
+  if (depth_ >= kDeepestEvaluation) {
+    diagnostics_.report(Code::too_deep, expr.range, kDeepestNesting, kDeepestTree);
+    steps_ = kMostSteps;
+    return {};
+  }
   ++depth_;
   Tensor found = value_of_kind(expr);
   --depth_;
-  return found;
+  return take_steps(expr, found.terms.size()) ? found : Tensor();
 }
 
 Tensor Evaluator::constant(const Expr& expr) {
@@ -188,7 +191,7 @@ void Evaluator::unknown_name(const Expr& name, Code code) {
   auto& diagnostic = diagnostics_.report(code, name.range, name.text).did_you_mean(name.text, candidates);
   for (const Declaration& variable : program_.variables) {
     if (variable.name.text == name.text)
-      diagnostic.note("a function sees its arguments and the constants, not the variables");
+      diagnostic.note("variables are seen by the goal and the constraints alone");
   }
 }
 
@@ -220,6 +223,7 @@ Tensor Evaluator::binary(const Expr& expr) {
     const Expr& link = *chain.back();
     const Tensor right = value(*link.operands[1]);
     if (right.failed()) return {};
+    if (!take_steps(link, operations(link.op, left, right))) return {};
     auto found = combine(link.op, left, right);
     if (!found) {
       diagnostics_.report(Code::wrong_operands, link.token, link.token.text(), describe(left),

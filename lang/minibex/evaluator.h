@@ -68,7 +68,7 @@ class Evaluator {
       Scope inner{outer};
       inner.names.emplace(name, Binding{counted(static_cast<int>(i)), {}});
       scope_ = &inner;
-      good = take_step(first) && body();
+      good = take_steps(first, 1) && body();
       scope_ = outer;
     }
     return good;
@@ -116,7 +116,8 @@ class Evaluator {
   void unknown_name(const Expr& name, Code code);
   Tensor defined(const Expr& expr, Tensor tensor);
   Tensor as_wanted(const Expr& expr, Tensor tensor);
-  bool take_step(const Expr& expr);
+  /// Whether so many steps are left; the first time that they are not is reported.
+  bool take_steps(const Expr& expr, std::uint64_t count);
 
   const Program& program_;
   Problem& problem_;

@@ -138,6 +138,8 @@ Name ExpressionParser::name() {
 
 // `<` behind an operator is the start of a ball, which the next `>` ends.
 bool ExpressionParser::sees_relation_in_parentheses() const {
+  std::size_t leading = 0;  // ((a = b)) is one, too
+  while (peek(leading).kind == TokenKind::left_paren) ++leading;
   std::size_t depth = 0;
   bool in_ball = false;
   for (std::size_t at = at_; at < tokens_.size(); ++at) {
@@ -145,7 +147,7 @@ bool ExpressionParser::sees_relation_in_parentheses() const {
     if (token.kind == TokenKind::left_paren || token.kind == TokenKind::left_bracket) ++depth;
     if (token.kind == TokenKind::right_paren || token.kind == TokenKind::right_bracket) --depth;
     if (depth == 0 || token.kind == TokenKind::semicolon) return false;
-    if (depth > 1) continue;
+    if (depth > leading) continue;
     if (keyword(token) == Keyword::in) return true;
     if (!is_comparison(token.kind)) continue;
     const bool opens = token.kind == TokenKind::less && !ends_an_operand(tokens_[at - 1]);

@@ -50,6 +50,11 @@ std::optional<Tensor> combine(Operator op, const Tensor& a, const Tensor& b) {
   }
 }
 
+std::uint64_t operations(Operator op, const Tensor& a, const Tensor& b) {
+  const bool is_product = op == Operator::multiply && !a.is_scalar() && a.columns == b.rows;
+  return is_product ? a.terms.size() * b.columns : std::max(a.terms.size(), b.terms.size());
+}
+
 Tensor negated(Tensor a) {
   for (Term& term : a.terms) term = negate(term);
   return a;

@@ -33,6 +33,8 @@ std::string describe(const Tensor& tensor);
 /// number on one side, or is that of matrices, or of two vectors alike the dot product; what is divided by is
 /// a number, and so are both sides of a power.
 std::optional<Tensor> combine(Operator op, const Tensor& a, const Tensor& b);
+/// How many operations on terms that takes.
+std::uint64_t operations(Operator op, const Tensor& a, const Tensor& b);
 Tensor negated(Tensor a);
 Tensor transposed(const Tensor& a);
 /// The parts side by side, or one below the other; none where they do not fit.
