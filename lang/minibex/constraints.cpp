@@ -5,6 +5,12 @@
 
 namespace hcsp::lang::minibex {
 
+namespace {
+
+constexpr std::uint64_t kStepsOfAConstraint = 30;  // it takes that much more memory than an expression
+
+}  // namespace
+
 void Compiler::goal() {
   if (program_.goal == nullptr) return;
   const Tensor found = evaluator_.value(*program_.goal);
@@ -57,7 +63,9 @@ bool Compiler::state_relation(const Statement& statement, const Relation& relati
     diagnostics_.report(Code::sizes_differ, statement.range, describe(a), describe(b));
     return false;
   }
-  for (std::size_t i = 0; i < std::max(a.terms.size(), b.terms.size()); ++i)
+  const std::size_t count = std::max(a.terms.size(), b.terms.size());
+  if (!evaluator_.take_steps(*relation.left, kStepsOfAConstraint * count)) return false;
+  for (std::size_t i = 0; i < count; ++i)
     state_truth(statement, relation.op, a.terms[a.is_scalar() ? 0 : i], b.terms[b.is_scalar() ? 0 : i]);
   return true;
 }
@@ -65,7 +73,8 @@ bool Compiler::state_relation(const Statement& statement, const Relation& relati
 bool Compiler::state_membership(const Statement& statement, const Relation& relation) {
   const Tensor left = evaluator_.value(*relation.left);
   const auto bounds = left.failed() ? std::nullopt : evaluator_.bounds(*relation.right);
-  if (!bounds) return false;
+  if (!bounds || !evaluator_.take_steps(*relation.left, kStepsOfAConstraint * left.terms.size()))
+    return false;
   const bool is_point =
       bounds->lo && bounds->hi && known_relation(Operator::equal, *bounds->lo, *bounds->hi).value_or(false);
   for (const Term& term : left.terms) {
@@ -81,6 +90,7 @@ bool Compiler::state_membership(const Statement& statement, const Relation& rela
 
 bool Compiler::state_whole(const Statement& statement, const Expr& argument) {
   const Tensor found = evaluator_.value(argument);
+  if (!evaluator_.take_steps(argument, kStepsOfAConstraint * found.terms.size())) return false;
   for (const Term& term : found.terms) {
     const auto* expr = std::get_if<hcsp::Expr>(&term);
     if (expr != nullptr && whole_nodes_.contains(expr->node())) continue;

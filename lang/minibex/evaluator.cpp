@@ -16,8 +16,10 @@ namespace hcsp::lang::minibex {
 
 namespace {
 
-// Loops in loops, and functions in functions, multiply: a file must not be able to fill the memory.
+// Loops in loops, and functions in functions, multiply: a file must not be able to fill the memory. What is
+// written out may be as long as it is.
 constexpr std::uint64_t kMostSteps = 5'000'000;
+constexpr std::uint64_t kStepsOfWritten = 20;
 constexpr std::uint32_t kDeepestEvaluation = 1000;
 
 }  // namespace
@@ -31,7 +33,11 @@ const Binding* Scope::find(std::string_view name) const {
 }
 
 Evaluator::Evaluator(const Program& program, Problem& problem, Diagnostics& diagnostics)
-    : program_(program), problem_(problem), diagnostics_(diagnostics), callable_(program.functions.size()) {
+    : program_(program),
+      problem_(problem),
+      diagnostics_(diagnostics),
+      callable_(program.functions.size()),
+      most_steps_(kMostSteps + kStepsOfWritten * program.expressions.size()) {
   for (std::size_t i = 0; i < program.functions.size(); ++i) {
     const Name& name = program.functions[i].name;
     if (!functions_.emplace(name.text, i).second)
@@ -44,17 +50,17 @@ Tensor Evaluator::counted(int value) { return Term(*Number::parse(std::to_string
 // ---- Entries.
 
 bool Evaluator::take_steps(const Expr& expr, std::uint64_t count) {
-  if (steps_ >= kMostSteps) return false;  // one report is enough
-  steps_ += std::min(count, kMostSteps);
-  if (steps_ >= kMostSteps) diagnostics_.report(Code::too_large, expr.range, kMostSteps);
-  return steps_ < kMostSteps;
+  if (steps_ >= most_steps_) return false;  // one report is enough
+  steps_ += std::min(count, most_steps_);
+  if (steps_ >= most_steps_) diagnostics_.report(Code::too_large, expr.range, most_steps_);
+  return steps_ < most_steps_;
 }
 
 Tensor Evaluator::value(const Expr& expr) {
   if (!take_steps(expr, 1)) return {};
   if (depth_ >= kDeepestEvaluation) {
     diagnostics_.report(Code::too_deep, expr.range, kDeepestNesting, kDeepestTree);
-    steps_ = kMostSteps;
+    steps_ = most_steps_;
     return {};
   }
   ++depth_;

@@ -55,6 +55,8 @@ class Evaluator {
   std::optional<int> whole(const Expr& expr);
   /// The rows and columns that a declaration says, 1 by 1 where it says nothing.
   std::optional<std::pair<std::size_t, std::size_t>> shape(const Declaration& declaration);
+  /// Whether so many steps are left; the first time that they are not is reported.
+  bool take_steps(const Expr& expr, std::uint64_t count);
   /// Runs body(), with a name bound to each whole number of first:last, in a scope of its own, until it gives
   /// false; false then and after a report.
   template <class Body>
@@ -116,8 +118,6 @@ class Evaluator {
   void unknown_name(const Expr& name, Code code);
   Tensor defined(const Expr& expr, Tensor tensor);
   Tensor as_wanted(const Expr& expr, Tensor tensor);
-  /// Whether so many steps are left; the first time that they are not is reported.
-  bool take_steps(const Expr& expr, std::uint64_t count);
 
   const Program& program_;
   Problem& problem_;
@@ -128,6 +128,7 @@ class Evaluator {
   std::size_t callable_ = 0;
   bool wants_constants_ = false;
   bool made_of_intervals_ = false;
+  std::uint64_t most_steps_;
   std::uint64_t steps_ = 0;
   std::uint32_t depth_ = 0;
 };
