@@ -100,10 +100,12 @@ class Evaluator {
   Tensor interval_constant(const Interval& value);
   Tensor over_range(const Expr& expr);
   const Tensor* visible(const Expr& name);
+  std::optional<Number> bound(const Expr& expr, bool& infinite, bool is_lower);
+
+  // Components (indices.cpp).
   Tensor apply(const Expr& expr);
   Tensor indexed(const Tensor& base, const Expr& expr);
   std::optional<Extent> extent(const Expr& index, std::size_t size, bool from_zero);
-  std::optional<Number> bound(const Expr& expr, bool& infinite, bool is_lower);
 
   // Calls (calls.cpp).
   Tensor call(const Expr& expr);

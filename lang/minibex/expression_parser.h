@@ -67,9 +67,9 @@ class ExpressionParser {
   [[nodiscard]] bool sees_relation_in_parentheses() const;
 
  protected:
-  Program& program_;
-  Diagnostics& diagnostics_;
-
+  [[nodiscard]] Program& program() { return program_; }
+  [[nodiscard]] Diagnostics& diagnostics() { return diagnostics_; }
+  /// From there to the last token that was read.
   [[nodiscard]] SourceRange since(const SourceRange& first) const {
     return at_ == 0 ? first : first.to(tokens_[at_ - 1].range);
   }
@@ -88,6 +88,8 @@ class ExpressionParser {
   bool deepen();
   Expr& make(Kind kind, const SourceRange& range);
 
+  Program& program_;
+  Diagnostics& diagnostics_;
   std::vector<Token> tokens_;
   std::size_t at_ = 0;
   std::uint32_t depth_ = 0;

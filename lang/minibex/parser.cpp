@@ -15,8 +15,8 @@ class Parser : public ExpressionParser {
  public:
   using ExpressionParser::ExpressionParser;
 
-  void program() {
-    while (!sees(TokenKind::end) && diagnostics_.count() < kMostMistakes) section();
+  void read() {
+    while (!sees(TokenKind::end) && diagnostics().count() < kMostMistakes) section();
   }
   const Expr* lone_expression() {
     const Expr* found = expression();
@@ -29,23 +29,23 @@ class Parser : public ExpressionParser {
     switch (keyword(start)) {
       case Keyword::constants:
         once(has_constants_);
-        return declarations(program_.constants, &Parser::constant);
+        return declarations(program().constants, &Parser::constant);
       case Keyword::variables:
         once(has_variables_);
-        return declarations(program_.variables, &Parser::variable);
+        return declarations(program().variables, &Parser::variable);
       case Keyword::function:
         if (!function()) skip_to_section();
         return;
       case Keyword::minimize:
         once(has_goal_);
-        program_.goal = expression();
-        if (program_.goal == nullptr || !ends_section(accept(TokenKind::semicolon))) skip_to_section();
+        program().goal = expression();
+        if (program().goal == nullptr || !ends_section(accept(TokenKind::semicolon))) skip_to_section();
         return;
       case Keyword::constraints:
         once(has_constraints_);
         return constraints();
       case Keyword::parameters:
-        diagnostics_.report(Code::not_supported, start.range, "the section `Parameters`");
+        diagnostics().report(Code::not_supported, start.range, "the section `Parameters`");
         next();
         return skip_to_section();
       default:
@@ -55,7 +55,7 @@ class Parser : public ExpressionParser {
   }
 
   void once(bool& seen) {
-    if (seen) diagnostics_.report(Code::item_twice, peek().range, peek().text());
+    if (seen) diagnostics().report(Code::item_twice, peek().range, peek().text());
     seen = true;
     next();
   }
@@ -87,7 +87,7 @@ class Parser : public ExpressionParser {
       if (next().kind == TokenKind::semicolon) return;
     }
   }
-  [[nodiscard]] bool gives_up() const { return diagnostics_.count() >= kMostMistakes; }
+  [[nodiscard]] bool gives_up() { return diagnostics().count() >= kMostMistakes; }
 
   // Constants and variables: they end with a semicolon each, variables with a comma too.
   void declarations(std::vector<Declaration>& found, bool (Parser::*read)(Declaration&)) {
@@ -165,12 +165,12 @@ class Parser : public ExpressionParser {
     accept(TokenKind::semicolon);
     if (!expect(Keyword::end, "end")) return false;
     accept(TokenKind::semicolon);
-    program_.functions.push_back(std::move(found));
+    program().functions.push_back(std::move(found));
     return true;
   }
 
   void constraints() {
-    statements(program_.constraints);
+    statements(program().constraints);
     if (expect(Keyword::end, "end")) accept(TokenKind::semicolon);
   }
 
@@ -178,7 +178,7 @@ class Parser : public ExpressionParser {
   void statements(std::vector<Statement>& found) {
     while (!sees_section() && !sees(Keyword::end) && !gives_up()) {
       if (accept(TokenKind::semicolon)) continue;
-      const std::size_t mistakes = diagnostics_.count();
+      const std::size_t mistakes = diagnostics().count();
       const SourceRange start = peek().range;
       const std::uint32_t outer = loops_;
       const bool is_loop = sees(Keyword::for_loop);
@@ -188,14 +188,14 @@ class Parser : public ExpressionParser {
       loops_ = outer;
       if (good) found.push_back(std::move(statement));
       if (good && (accept(TokenKind::semicolon) || is_loop || sees(Keyword::end))) continue;
-      if (diagnostics_.count() == mistakes) not_ended();
+      if (diagnostics().count() == mistakes) not_ended();
       skip_statement();
     }
   }
 
   void not_ended() {
     if (find_comparison()) {
-      diagnostics_.report(Code::does_not_chain, peek().range, peek().text());
+      diagnostics().report(Code::does_not_chain, peek().range, peek().text());
     } else {
       unexpected("`;`");
     }
@@ -219,7 +219,7 @@ class Parser : public ExpressionParser {
 
   bool deepen_loops() {
     if (++loops_ <= kDeepestNesting) return true;
-    diagnostics_.report(Code::too_deep, peek().range, kDeepestNesting, kDeepestTree);
+    diagnostics().report(Code::too_deep, peek().range, kDeepestNesting, kDeepestTree);
     return false;
   }
 
@@ -291,7 +291,7 @@ class Parser : public ExpressionParser {
 
 Program parse(const Source& source, Diagnostics& diagnostics) {
   Program program;
-  Parser(source, program, diagnostics).program();
+  Parser(source, program, diagnostics).read();
   return program;
 }
 

@@ -15,7 +15,7 @@ struct Tensor {
   Value terms;  ///< row after row; none after an error, which has been reported
 
   Tensor() = default;
-  Tensor(Term term) : terms{std::move(term)} {}  // NOLINT(google-explicit-constructor): a number is a matrix
+  Tensor(const Term& term) : terms{term} {}  // NOLINT(google-explicit-constructor): a number is a matrix
   Tensor(std::size_t r, std::size_t c, Value v) : rows(r), columns(c), terms(std::move(v)) {}
 
   [[nodiscard]] bool failed() const { return terms.empty(); }
