@@ -16,8 +16,9 @@ constexpr double kPrecision = 1e-3;  // IBEX's default
 void replace_constants(const CompileOptions& options, Program& program, Compilation& compilation) {
   for (const auto& [name, value] : options.parameters) {
     const Source& source = compilation.tree->add_source(fmt::format("--set {}", name), value);
-    const auto replaced = std::find_if(program.constants.begin(), program.constants.end(),
-                                       [&](const Declaration& known) { return known.name.text == name; });
+    const auto replaced =
+        std::find_if(program.constants.begin(), program.constants.end(),
+                     [&sought = name](const Declaration& known) { return known.name.text == sought; });
     if (replaced == program.constants.end()) {
       std::vector<std::string> names;
       for (const Declaration& constant : program.constants) names.emplace_back(constant.name.text);
