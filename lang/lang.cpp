@@ -10,6 +10,7 @@
 #include "lang/compile/compile.h"
 #include "lang/data/file.h"
 #include "lang/loader.h"
+#include "lang/minibex/minibex.h"
 #include "lang/syntax/parser.h"
 
 namespace hcsp::lang {
@@ -110,6 +111,10 @@ Compilation compile_text(ModelSource text, const CompileOptions& options) {
   Compilation compilation;
   compilation.tree = std::make_unique<SyntaxTree>();
   const Source& source = compilation.tree->add_source(std::move(text.name), std::move(text.text));
+  if (minibex::is_minibex(source.name())) {
+    minibex::compile(source, options, compilation);
+    return compilation;
+  }
   load(source, *compilation.tree, options.library, compilation.diagnostics);
   // What was not read cannot be missed: without all the items, names would be unknown for no fault of theirs.
   if (compilation.diagnostics.any()) return compilation;

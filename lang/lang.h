@@ -19,7 +19,8 @@ namespace hcsp::lang {
 /// hcsp: `include "library/polar.hcsp"` is found there.
 std::vector<std::string> library_folders();
 
-/// The text of a model. Paths in it are relative to the folder of `name`.
+/// The text of a model, in the language that the ending of `name` says: Minibex for .bch, .mbx and .txt, else
+/// that of hcsp. Paths in it are relative to the folder of `name`.
 struct ModelSource {
   std::string name;
   std::string text;
@@ -39,6 +40,7 @@ struct CompiledModel {
   std::string name;
   std::unique_ptr<Problem> problem;
   SolveItem::Goal goal = SolveItem::Goal::propagate;
+  std::optional<hcsp::Expr> objective;           ///< what `minimize` minimizes
   double precision = SearchOptions{}.precision;  ///< of the goals that have one
   std::vector<std::string> shown;                ///< what the model asks to show, in its order
   /// From the first use of a data value to the finished Problem: part of what a result calls its seconds.

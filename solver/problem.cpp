@@ -93,6 +93,7 @@ Expr Problem::component(VectorVariable x, std::size_t i) {
 }
 
 Expr Problem::constant(const Interval& value) { return {impl_->dag, impl_->dag.constant(value)}; }
+Expr Problem::unknown_constant(const Interval& value) { return {impl_->dag, impl_->dag.own_constant(value)}; }
 Expr Problem::operator()(RealVariable x) { return impl_->input(Input::Kind::real, x.id, 0); }
 Expr Problem::operator()(IntegerVariable x) { return impl_->input(Input::Kind::real, x.id, 0); }
 // Between the two values, so that either truth of the relation leaves but one of them.

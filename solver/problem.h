@@ -95,7 +95,10 @@ class Problem {
   SetVariable set(std::string name, std::size_t dim, double precision, const std::optional<Box>& frame = {});
 
   // Expressions over the unknowns.
+  /// An unknown that is one for all constants of these bounds: [value] is a domain.
   Expr constant(const Interval& value);
+  /// An unknown of its own, somewhere in the interval, that results do not show.
+  Expr unknown_constant(const Interval& value);
   Expr operator()(RealVariable x);
   Expr operator()(IntegerVariable x);
   /// A relation: it holds when x is true.

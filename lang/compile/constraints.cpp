@@ -44,7 +44,7 @@ std::optional<Term> Compiler::relation_of(const Expr& expr, bool wanted) {
 void Compiler::state_truth(const Term& relation) {
   const auto known = Evaluator::truth(relation);
   if (known && *known) return;
-  const hcsp::Expr expr = Evaluator::expression(*problem_, relation);
+  const hcsp::Expr expr = expression_of(*problem_, relation);
   problem_->constrain(next_name(), known ? expr == problem_->constant(Interval(1.0)) : expr);
 }
 
@@ -75,7 +75,7 @@ void Compiler::state_derivative(const Expr& derivative, const Expr& value) {
   const Value terms = part ? evaluator_.value(value) : Value{};
   if (terms.empty()) return;
   VectorExpr f;
-  for (const Term& term : terms) f.push_back(Evaluator::expression(*problem_, term));
+  for (const Term& term : terms) f.push_back(expression_of(*problem_, term));
   guarded(value.range, [&] {
     if (part->dim == part->tube.dim) return problem_->constrain_derivative(next_name(), part->tube, f);
     problem_->constrain_derivative(next_name(), part->tube, part->first, f.front());
@@ -95,7 +95,7 @@ void Compiler::state_range(const Expr& range, const Expr& value) {
     const Value position = evaluator_.value(*range.operands[1]);
     if (position.empty()) return;
     VectorExpr x;
-    for (const Term& term : position) x.push_back(Evaluator::expression(*problem_, term));
+    for (const Term& term : position) x.push_back(expression_of(*problem_, term));
     delta = norm(a - x);
   } else {
     evaluator_.bind(model_.reference(range).local, Value(a.begin(), a.end()));
@@ -103,10 +103,10 @@ void Compiler::state_range(const Expr& range, const Expr& value) {
     const Value body = evaluator_.value(*range.operands[0]);
     in_zone_ = outer;
     if (body.empty()) return;
-    delta = Evaluator::expression(*problem_, body.front());
+    delta = expression_of(*problem_, body.front());
   }
   guarded(range.range, [&] {
-    problem_->constrain_range(next_name(), Evaluator::expression(*problem_, z.front()), a, *delta, *map);
+    problem_->constrain_range(next_name(), expression_of(*problem_, z.front()), a, *delta, *map);
   });
 }
 

@@ -41,9 +41,8 @@ void Compiler::state(const Expr& written, bool wanted) {
   if (!wanted && one_truth) {
     if (model_.is_stated(expr)) return guarded(expr.range, [&] { state_at_an_instant(expr, false); });
     if (const auto relation = relation_of(expr, false))
-      guarded(expr.range, [&] {
-        problem_->constrain_sometime(next_name(), Evaluator::expression(*problem_, *relation));
-      });
+      guarded(expr.range,
+              [&] { problem_->constrain_sometime(next_name(), expression_of(*problem_, *relation)); });
     return;
   }
   const Symbol* callee = expr.kind == ExprKind::call ? model_.reference(*expr.operands[0]).symbol : nullptr;
@@ -223,7 +222,7 @@ void Compiler::state_sometime(const Expr& body, bool wanted) {
   const auto relation = relation_of(body, wanted);
   if (!relation) return;
   if (Evaluator::truth(*relation)) return state_truth(*relation);
-  problem_->constrain_sometime(next_name(), Evaluator::expression(*problem_, *relation));
+  problem_->constrain_sometime(next_name(), expression_of(*problem_, *relation));
 }
 
 // The relation holds, or does not, at an instant that is an unknown of its own.

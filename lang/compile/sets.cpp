@@ -110,7 +110,7 @@ void Compiler::state_point_in_set(const Expr& point, const Expr& set, bool wante
     const SetVariable home = set_equal_to(*term, *grid);
     const VectorExpr bound = problem_->point(grid->dim);
     VectorExpr position;
-    for (const Term& coordinate : terms) position.push_back(Evaluator::expression(*problem_, coordinate));
+    for (const Term& coordinate : terms) position.push_back(expression_of(*problem_, coordinate));
     problem_->constrain_meets(next_name(), {grid->dim, bound == position}, home);
   });
 }
@@ -304,7 +304,7 @@ std::optional<SetBuilder> Compiler::zone_of(const Expr& written, bool wanted) {
   const auto relation = relation_of(*expr->operands[0], wanted);
   in_zone_ = outer;
   if (!relation) return {};
-  const hcsp::Expr zone = Evaluator::expression(*problem_, *relation);
+  const hcsp::Expr zone = expression_of(*problem_, *relation);
   const bool is_constant = Evaluator::truth(*relation).has_value();
   return SetBuilder{dim, is_constant ? zone == problem_->constant(Interval(1.0)) : zone};
 }

@@ -255,7 +255,7 @@ void Compiler::state_domain_over_time(const Symbol& symbol, const Expr& domain) 
       for (const auto& [end, is_lower] : {std::pair(bound.lo, true), std::pair(bound.hi, false)}) {
         if (!end) continue;
         if (!require_time_alone(*end, domain)) return;
-        const hcsp::Expr value = Evaluator::expression(*problem_, *end);
+        const hcsp::Expr value = expression_of(*problem_, *end);
         problem_->constrain(next_name(), is_lower ? value <= x : x <= value);
       }
     }

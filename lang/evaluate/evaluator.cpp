@@ -103,11 +103,6 @@ std::optional<Box> Evaluator::box(const Expr& expr) {
 
 void Evaluator::bind(std::uint32_t local, Value value) { locals_[local] = std::move(value); }
 
-hcsp::Expr Evaluator::expression(Problem& problem, const Term& term) {
-  if (const auto* number = std::get_if<Number>(&term)) return problem.constant(number->enclosure);
-  return std::get<hcsp::Expr>(term);
-}
-
 // What is stated as a constraint is no value: a connective of it, a relation between sets, a derivative. A
 // relation between reals at an instant to be found is stated, but has a value.
 bool Evaluator::has_value(const Expr& expr) const {

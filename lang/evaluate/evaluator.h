@@ -14,7 +14,7 @@
 #include <utility>
 
 #include "domains/box.h"
-#include "lang/evaluate/value.h"
+#include "lang/evaluate/terms.h"
 #include "lang/model/model.h"
 #include "solver/problem.h"
 
@@ -106,7 +106,6 @@ class Evaluator {
   void bind(std::uint32_t local, Value value);
   /// The truth of a relation between constants.
   static std::optional<bool> truth(const Term& term);
-  static hcsp::Expr expression(Problem& problem, const Term& term);
 
  private:
   Value value_of_kind(const Expr& expr);
@@ -136,12 +135,6 @@ class Evaluator {
   Term determinant(const Value& a, std::size_t n);
   Value inverse(const Value& a, std::size_t n);
   Value rotation(const std::vector<Value>& arguments);
-  Term root_of(const Term& a, int degree);
-  Term power_of(const Term& base, int exponent);
-  Term sum_of(const Value& terms);
-  Term product_of(const Value& terms);
-  Term extremum(BuiltIn function, const Value& terms);
-  Term dot(const Value& a, const Value& b);
   Value power(const Expr& expr);
   Value relation(const Expr& expr, const Value& a, const Value& b);
   Value membership(const Expr& expr);
@@ -161,16 +154,12 @@ class Evaluator {
   bool require_all_time(const Expr& expr, std::string_view what);
   Value built_in(const Expr& expr, BuiltIn function);
   Value data_value(const Expr& expr, BuiltIn function);
-  Term scalar_function(BuiltIn function, const Term& a);
-  Term scalar_function(BuiltIn function, const Term& a, const Term& b);
 
   std::optional<Column> member(const Expr& expr);
   std::optional<std::vector<Column>> column_arithmetic(const Expr& expr);
   CellValue combine(Operator op, const CellValue& a, const CellValue& b);
 
-  Term operate(Operator op, const Term& a, const Term& b);
-  Term negate(const Term& a);
-  hcsp::Expr expression(const Term& term) { return expression(unknowns_->problem, term); }
+  hcsp::Expr expression(const Term& term) { return expression_of(unknowns_->problem, term); }
   /// The value, unless a component of it is a constant that does not exist (1/0).
   Value defined(const Expr& expr, Value value);
   bool take_step(const Expr& expr);

@@ -6,29 +6,15 @@
 
 namespace hcsp::lang {
 
-Term Evaluator::dot(const Value& a, const Value& b) {
-  Value products;
-  for (std::size_t i = 0; i < a.size(); ++i) products.push_back(operate(Operator::multiply, a[i], b[i]));
-  return sum_of(products);
-}
-
 // A vector is a row on the left and a column on the right.
 Value Evaluator::product(const Expr& expr, const Value& a, const Value& b) {
   const Type &of_a = model_.type(*expr.operands[0]), &of_b = model_.type(*expr.operands[1]);
   const std::size_t inner = of_a.is_matrix() ? of_a.columns : of_a.dim;
   const std::size_t columns = std::max(of_b.columns, 1U);
-  Value result;
-  for (std::size_t row = 0; row < a.size() / inner; ++row) {
-    const auto begin = a.begin() + static_cast<std::ptrdiff_t>(row * inner);
-    const Value of_row(begin, begin + static_cast<std::ptrdiff_t>(inner));
-    for (std::size_t column = 0; column < columns; ++column) {
-      Value of_column;
-      for (std::size_t k = 0; k < inner; ++k) of_column.push_back(b[k * columns + column]);
-      if (!take_step(expr)) return {};
-      result.push_back(dot(of_row, of_column));
-    }
+  for (std::size_t entry = 0; entry < a.size() / inner * columns; ++entry) {
+    if (!take_step(expr)) return {};
   }
-  return defined(expr, std::move(result));
+  return defined(expr, matrix_product(a, b, inner, columns));
 }
 
 namespace {
@@ -118,13 +104,8 @@ Value Evaluator::matrix_function(const Expr& expr, BuiltIn function, const std::
       if (n == 2) return {component(0, 1)};
       return {component(1, 2), component(2, 0), component(0, 1)};
     }
-    case BuiltIn::transpose: {
-      Value result;
-      for (std::size_t j = 0; j < type.columns; ++j) {
-        for (std::size_t i = 0; i < n; ++i) result.push_back(a[i * type.columns + j]);
-      }
-      return result;
-    }
+    case BuiltIn::transpose:
+      return transposed(a, n, type.columns);
     case BuiltIn::det:
       return defined(expr, {determinant(a, n)});
     case BuiltIn::inverse:

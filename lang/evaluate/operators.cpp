@@ -2,31 +2,11 @@
 // Operators, of numbers as long as everything is known and of expressions from then on.
 #include <algorithm>
 
-#include "domains/interval/functions.h"
 #include "lang/evaluate/evaluator.h"
 
 namespace hcsp::lang {
 
 namespace {
-
-constexpr int kMostExactFactors = 64;
-
-hcsp::Expr compare(Operator op, const hcsp::Expr& a, const hcsp::Expr& b) {
-  switch (op) {
-    case Operator::equal:
-      return a == b;
-    case Operator::not_equal:
-      return a != b;
-    case Operator::less:
-      return a < b;
-    case Operator::less_equal:
-      return a <= b;
-    case Operator::greater:
-      return a > b;
-    default:
-      return a >= b;
-  }
-}
 
 /// a < b, a > b or a != b of whole numbers: they differ by 1 at least.
 hcsp::Expr apart(Operator op, const hcsp::Expr& a, const hcsp::Expr& b) {
@@ -39,31 +19,6 @@ hcsp::Expr apart(Operator op, const hcsp::Expr& a, const hcsp::Expr& b) {
 bool is_whole(const Type& type, const Term& term) {
   const auto* number = std::get_if<Number>(&term);
   return number == nullptr ? type.whole : number->exact && number->exact->as_int().has_value();
-}
-
-/// How a comparison of constants ends, where their enclosures tell.
-std::optional<bool> known_relation(Operator op, const Term& a, const Term& b) {
-  const auto* x = std::get_if<Number>(&a);
-  const auto* y = std::get_if<Number>(&b);
-  if (x == nullptr || y == nullptr) return {};
-  const Interval difference = (*x - *y).enclosure;
-  const bool is_zero = difference.lo() == 0 && difference.hi() == 0;
-  const bool below = difference.hi()<0, above = difference.lo()> 0;
-  if (!is_zero && !below && !above) return {};
-  switch (op) {
-    case Operator::equal:
-      return is_zero;
-    case Operator::not_equal:
-      return !is_zero;
-    case Operator::less:
-      return below;
-    case Operator::less_equal:
-      return !above;
-    case Operator::greater:
-      return above;
-    default:
-      return !below;
-  }
 }
 
 /// A connective whose first operand decides it: the second need not exist then.
@@ -102,40 +57,6 @@ std::optional<Term> known_logic(Operator op, const Term& a, const Term& b) {
 }
 
 }  // namespace
-
-Term Evaluator::negate(const Term& a) {
-  if (const auto* number = std::get_if<Number>(&a)) return -*number;
-  return -std::get<hcsp::Expr>(a);
-}
-
-Term Evaluator::operate(Operator op, const Term& a, const Term& b) {
-  const auto* x = std::get_if<Number>(&a);
-  const auto* y = std::get_if<Number>(&b);
-  if (x != nullptr && y != nullptr) {
-    switch (op) {
-      case Operator::add:
-        return *x + *y;
-      case Operator::subtract:
-        return *x - *y;
-      case Operator::multiply:
-        return *x * *y;
-      default:
-        return *x / *y;
-    }
-  }
-  const hcsp::Expr u = expression(a);
-  const hcsp::Expr v = expression(b);
-  switch (op) {
-    case Operator::add:
-      return u + v;
-    case Operator::subtract:
-      return u - v;
-    case Operator::multiply:
-      return u * v;
-    default:
-      return u / v;
-  }
-}
 
 Value Evaluator::defined(const Expr& expr, Value value) {
   for (const Term& term : value) {
@@ -204,25 +125,7 @@ Value Evaluator::power(const Expr& expr) {
   const Value base = value(*expr.operands[0]);
   const Value exponent = base.empty() ? Value{} : value(*expr.operands[1]);
   if (exponent.empty()) return {};
-  const auto* number = std::get_if<Number>(&exponent.front());
-  const auto whole = number != nullptr && number->exact ? number->exact->as_int() : std::nullopt;
-  if (whole) return defined(expr, {power_of(base.front(), *whole)});
-  const auto* known = std::get_if<Number>(&base.front());
-  if (known != nullptr && number != nullptr)
-    return defined(expr, {Number::of(pow(known->enclosure, number->enclosure))});
-  return {pow(expression(base.front()), expression(exponent.front()))};
-}
-
-Term Evaluator::power_of(const Term& base, int exponent) {
-  if (exponent == 1) return base;
-  if (exponent == 2) return scalar_function(BuiltIn::sqr, base);
-  const auto* number = std::get_if<Number>(&base);
-  if (number == nullptr) return pown(std::get<hcsp::Expr>(base), exponent);
-  const Number rounded = Number::of(pown(number->enclosure, exponent));
-  if (!number->exact || exponent < 0 || exponent > kMostExactFactors) return rounded;
-  Number product = *Number::parse("1");
-  for (int i = 0; i < exponent; ++i) product = product * *number;
-  return product.exact ? product : rounded;
+  return defined(expr, {power_of(base.front(), exponent.front())});
 }
 
 Value Evaluator::relation(const Expr& expr, const Value& a, const Value& b) {

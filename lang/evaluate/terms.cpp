@@ -3,12 +3,16 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <limits>
 
 #include "domains/interval/functions.h"
 
 namespace hcsp::lang {
 
 namespace {
+
+constexpr int kMostExactFactors = 64;
 
 /// A function of one real, of numbers and of expressions.
 struct ScalarFunction {
@@ -26,94 +30,22 @@ constexpr std::array kScalarFunctions{
 #undef HCSP_SCALAR
 };
 
-constexpr int kMostExactFactors = 64;
+const Number* number_in(const Term& term) { return std::get_if<Number>(&term); }
 
-// A term as an expression of another's system.
-hcsp::Expr expression(const Term& term, const Term& other) {
-  if (const auto* written = std::get_if<hcsp::Expr>(&term)) return *written;
-  Dag& dag = std::get<hcsp::Expr>(other).dag();
-  return {dag, dag.constant(std::get<Number>(term).enclosure)};
+/// The operands as expressions; one of them is one already.
+std::pair<hcsp::Expr, hcsp::Expr> expressions(const Term& a, const Term& b) {
+  const auto lifted = [](const Term& term, Dag& dag) {
+    const Number* number = number_in(term);
+    return number == nullptr ? std::get<hcsp::Expr>(term) : hcsp::Expr(dag, dag.constant(number->enclosure));
+  };
+  Dag& dag = std::get<hcsp::Expr>(number_in(a) == nullptr ? a : b).dag();
+  return {lifted(a, dag), lifted(b, dag)};
 }
 
-}  // namespace
-
-hcsp::Expr expression_of(Problem& problem, const Term& term) {
-  if (const auto* number = std::get_if<Number>(&term)) return problem.constant(number->enclosure);
-  return std::get<hcsp::Expr>(term);
-}
-
-Term negate(const Term& a) {
-  if (const auto* number = std::get_if<Number>(&a)) return -*number;
-  return -std::get<hcsp::Expr>(a);
-}
-
-Term operate(Operator op, const Term& a, const Term& b) {
-  const auto* x = std::get_if<Number>(&a);
-  const auto* y = std::get_if<Number>(&b);
-  if (x != nullptr && y != nullptr) {
-    switch (op) {
-      case Operator::add:
-        return *x + *y;
-      case Operator::subtract:
-        return *x - *y;
-      case Operator::multiply:
-        return *x * *y;
-      default:
-        return *x / *y;
-    }
-  }
-  const hcsp::Expr u = expression(a, b);
-  const hcsp::Expr v = expression(b, a);
-  switch (op) {
-    case Operator::add:
-      return u + v;
-    case Operator::subtract:
-      return u - v;
-    case Operator::multiply:
-      return u * v;
-    default:
-      return u / v;
-  }
-}
-
-Term scalar_function(BuiltIn function, const Term& a) {
-  const auto& entry = *std::find_if(kScalarFunctions.begin(), kScalarFunctions.end(),
-                                    [&](const ScalarFunction& known) { return known.id == function; });
-  const auto* number = std::get_if<Number>(&a);
-  if (number == nullptr) return entry.of_expression(std::get<hcsp::Expr>(a));
-  if (function == BuiltIn::sqr && number->exact) return *number * *number;
-  return Number::of(entry.of_number(number->enclosure));
-}
-
-Term scalar_function(BuiltIn function, const Term& a, const Term& b) {
-  const auto* x = std::get_if<Number>(&a);
-  const auto* y = std::get_if<Number>(&b);
-  if (x != nullptr && y != nullptr) {
-    switch (function) {
-      case BuiltIn::min:
-        return Number::of(min(x->enclosure, y->enclosure));
-      case BuiltIn::max:
-        return Number::of(max(x->enclosure, y->enclosure));
-      default:
-        return Number::of(atan2(x->enclosure, y->enclosure));
-    }
-  }
-  const hcsp::Expr u = expression(a, b);
-  const hcsp::Expr v = expression(b, a);
-  switch (function) {
-    case BuiltIn::min:
-      return min(u, v);
-    case BuiltIn::max:
-      return max(u, v);
-    default:
-      return atan2(u, v);
-  }
-}
-
-Term power_of(const Term& base, int exponent) {
+Term whole_power(const Term& base, int exponent) {
   if (exponent == 1) return base;
   if (exponent == 2) return scalar_function(BuiltIn::sqr, base);
-  const auto* number = std::get_if<Number>(&base);
+  const Number* number = number_in(base);
   if (number == nullptr) return pown(std::get<hcsp::Expr>(base), exponent);
   const Number rounded = Number::of(pown(number->enclosure, exponent));
   if (!number->exact || exponent < 0 || exponent > kMostExactFactors) return rounded;
@@ -122,18 +54,83 @@ Term power_of(const Term& base, int exponent) {
   return product.exact ? product : rounded;
 }
 
-Term power_of(const Term& base, const Term& exponent) {
-  const auto* number = std::get_if<Number>(&exponent);
-  const auto whole = number != nullptr && number->exact ? number->exact->as_int() : std::nullopt;
-  if (whole) return power_of(base, *whole);
-  const auto* known = std::get_if<Number>(&base);
-  if (known != nullptr && number != nullptr) return Number::of(pow(known->enclosure, number->enclosure));
-  return pow(expression(base, exponent), expression(exponent, base));
+}  // namespace
+
+hcsp::Expr expression_of(Problem& problem, const Term& term) {
+  if (const Number* number = number_in(term)) return problem.constant(number->enclosure);
+  return std::get<hcsp::Expr>(term);
+}
+
+std::optional<int> whole_value(const Number& number) {
+  if (number.exact) return number.exact->as_int();
+  const double value = number.enclosure.lo();
+  const bool is_whole = number.enclosure.is_point() && value == std::floor(value) &&
+                        std::abs(value) <= std::numeric_limits<int>::max();
+  return is_whole ? std::optional(static_cast<int>(value)) : std::nullopt;
+}
+
+Term negate(const Term& a) {
+  if (const Number* number = number_in(a)) return -*number;
+  return -std::get<hcsp::Expr>(a);
+}
+
+Term operate(Operator op, const Term& a, const Term& b) {
+  const auto apply = [op](const auto& x, const auto& y) -> Term {
+    switch (op) {
+      case Operator::add:
+        return x + y;
+      case Operator::subtract:
+        return x - y;
+      case Operator::multiply:
+        return x * y;
+      default:
+        return x / y;
+    }
+  };
+  if (number_in(a) != nullptr && number_in(b) != nullptr) return apply(*number_in(a), *number_in(b));
+  const auto [u, v] = expressions(a, b);
+  return apply(u, v);
+}
+
+Term scalar_function(BuiltIn function, const Term& a) {
+  const auto& entry = *std::find_if(kScalarFunctions.begin(), kScalarFunctions.end(),
+                                    [&](const ScalarFunction& known) { return known.id == function; });
+  const Number* number = number_in(a);
+  if (number == nullptr) return entry.of_expression(std::get<hcsp::Expr>(a));
+  if (function == BuiltIn::sqr && number->exact) return *number * *number;
+  return Number::of(entry.of_number(number->enclosure));
+}
+
+Term scalar_function(BuiltIn function, const Term& a, const Term& b) {
+  const auto apply = [function](const auto& x, const auto& y) {
+    switch (function) {
+      case BuiltIn::min:
+        return min(x, y);
+      case BuiltIn::max:
+        return max(x, y);
+      default:
+        return atan2(x, y);
+    }
+  };
+  if (number_in(a) != nullptr && number_in(b) != nullptr)
+    return Number::of(apply(number_in(a)->enclosure, number_in(b)->enclosure));
+  const auto [u, v] = expressions(a, b);
+  return apply(u, v);
 }
 
 Term root_of(const Term& a, int degree) {
-  if (const auto* number = std::get_if<Number>(&a)) return Number::of(rootn(number->enclosure, degree));
+  if (const Number* number = number_in(a)) return Number::of(rootn(number->enclosure, degree));
   return root(std::get<hcsp::Expr>(a), degree);
+}
+
+Term power_of(const Term& base, const Term& exponent) {
+  const Number* number = number_in(exponent);
+  const auto whole = number != nullptr ? whole_value(*number) : std::nullopt;
+  if (whole) return whole_power(base, *whole);
+  if (number != nullptr && number_in(base) != nullptr)
+    return Number::of(pow(number_in(base)->enclosure, number->enclosure));
+  const auto [u, v] = expressions(base, exponent);
+  return pow(u, v);
 }
 
 Term sum_of(const Value& terms) {
@@ -148,16 +145,16 @@ Term product_of(const Value& terms) {
   return product;
 }
 
-Term extremum(BuiltIn function, const Value& terms) {
-  Term result = terms.front();
-  for (std::size_t i = 1; i < terms.size(); ++i) result = scalar_function(function, result, terms[i]);
-  return result;
-}
-
 Term dot(const Value& a, const Value& b) {
   Value products;
   for (std::size_t i = 0; i < a.size(); ++i) products.push_back(operate(Operator::multiply, a[i], b[i]));
   return sum_of(products);
+}
+
+Term extremum(BuiltIn function, const Value& terms) {
+  Term result = terms.front();
+  for (std::size_t i = 1; i < terms.size(); ++i) result = scalar_function(function, result, terms[i]);
+  return result;
 }
 
 Value matrix_product(const Value& a, const Value& b, std::size_t inner, std::size_t columns) {
@@ -183,8 +180,8 @@ Value transposed(const Value& a, std::size_t rows, std::size_t columns) {
 }
 
 std::optional<bool> known_relation(Operator op, const Term& a, const Term& b) {
-  const auto* x = std::get_if<Number>(&a);
-  const auto* y = std::get_if<Number>(&b);
+  const Number* x = number_in(a);
+  const Number* y = number_in(b);
   if (x == nullptr || y == nullptr) return {};
   const Interval difference = (*x - *y).enclosure;
   const bool is_zero = difference.lo() == 0 && difference.hi() == 0;

@@ -18,7 +18,7 @@ struct Punctuation {
   TokenKind kind;
 };
 // Longer ones before their prefixes.
-constexpr std::array<Punctuation, 26> kPunctuation{{
+constexpr std::array<Punctuation, 27> kPunctuation{{
     {"..", TokenKind::range},       {"+-", TokenKind::plus_minus},   {"==", TokenKind::equal},
     {"!=", TokenKind::not_equal},   {"<=", TokenKind::less_equal},   {">=", TokenKind::greater_equal},
     {";", TokenKind::semicolon},    {":", TokenKind::colon},         {",", TokenKind::comma},
@@ -27,13 +27,18 @@ constexpr std::array<Punctuation, 26> kPunctuation{{
     {"}", TokenKind::right_brace},  {"|", TokenKind::bar},           {"=", TokenKind::assign},
     {"+", TokenKind::plus},         {"-", TokenKind::minus},         {"*", TokenKind::star},
     {"/", TokenKind::slash},        {"^", TokenKind::caret},         {"\\", TokenKind::backslash},
-    {"<", TokenKind::less},         {">", TokenKind::greater},
+    {"<", TokenKind::less},         {">", TokenKind::greater},       {"'", TokenKind::apostrophe},
 }};
+
+bool is_of(Dialect dialect, TokenKind kind) {
+  if (kind == TokenKind::apostrophe) return dialect == Dialect::minibex;
+  return dialect == Dialect::hcsp || (kind != TokenKind::range && kind != TokenKind::plus_minus);
+}
 
 class Lexer {
  public:
-  Lexer(const Source& source, Diagnostics& diagnostics)
-      : source_(source), text_(source.text()), diagnostics_(diagnostics) {}
+  Lexer(const Source& source, Diagnostics& diagnostics, Dialect dialect)
+      : source_(source), text_(source.text()), diagnostics_(diagnostics), dialect_(dialect) {}
 
   std::vector<Token> run() {
     if (text_.starts_with("\xEF\xBB\xBF")) at_ = 3;  // a byte order mark says nothing in UTF-8
@@ -57,7 +62,7 @@ class Lexer {
     if (is_space(c)) {
       ++at_;
     } else if (sees("//")) {
-      skip_to(std::min(text_.find('\n', at_), text_.size()));
+      skip_to(std::min(text_.find_first_of(dialect_ == Dialect::minibex ? "\n\r" : "\n", at_), text_.size()));
     } else if (sees("/*")) {
       block_comment();
     } else if (is_letter(c)) {
@@ -66,13 +71,16 @@ class Lexer {
       number();
     } else if (c == '"') {
       string();
+    } else if (c == '#' && dialect_ == Dialect::minibex) {
+      bits();
     } else {
       punctuation();
     }
   }
 
-  // Comments may hold any text, but the file is UTF-8 throughout.
+  // Comments may hold any text, but an .hcsp file is UTF-8 throughout.
   void skip_to(std::size_t end) {
+    if (dialect_ == Dialect::minibex) at_ = end;
     while (at_ < end) {
       const std::size_t length = code_point_length(text_, at_);
       if (length == 0) report_broken_utf8(at_);
@@ -98,6 +106,7 @@ class Lexer {
   void word() {
     const std::size_t begin = at_;
     while (is_word(peek())) ++at_;
+    if (dialect_ == Dialect::minibex) return emit(TokenKind::identifier, begin);
     const std::string_view text = text_.substr(begin, at_ - begin);
     const auto& all = keywords();
     const auto found = std::lower_bound(all.begin(), all.end(), text);
@@ -115,7 +124,7 @@ class Lexer {
     const std::size_t begin = at_;
     digits();
     // The dots of 1..3 are a range.
-    if (peek() == '.' && peek(1) != '.') {
+    if (peek() == '.' && (peek(1) != '.' || dialect_ == Dialect::minibex)) {
       ++at_;
       digits();
     }
@@ -134,6 +143,13 @@ class Lexer {
     emit(TokenKind::number, begin);
   }
 
+  // A double by its bits.
+  void bits() {
+    const std::size_t begin = at_++;
+    while (is_word(peek())) ++at_;
+    emit(TokenKind::number, begin);
+  }
+
   // The text up to the next quote, on one line; there are no escapes.
   void string() {
     const std::size_t begin = at_;
@@ -149,7 +165,7 @@ class Lexer {
 
   void punctuation() {
     for (const Punctuation& candidate : kPunctuation) {
-      if (candidate.text.front() == peek() && sees(candidate.text)) {
+      if (candidate.text.front() == peek() && sees(candidate.text) && is_of(dialect_, candidate.kind)) {
         const std::size_t begin = at_;
         at_ += candidate.text.size();
         return emit(candidate.kind, begin);
@@ -166,6 +182,7 @@ class Lexer {
     const std::string shown = byte < 0x20 || byte == 0x7F ? fmt::format("with code {}", byte)
                                                           : fmt::format("`{}`", text_.substr(begin, length));
     auto& diagnostic = diagnostics_.report(Code::bad_character, range(begin, at_), shown);
+    if (dialect_ == Dialect::minibex) return;
     if (byte == '&') diagnostic.note("the word for it is `and`");
     if (byte == '!') diagnostic.note("the word for it is `not`");
   }
@@ -173,6 +190,7 @@ class Lexer {
   const Source& source_;
   std::string_view text_;
   Diagnostics& diagnostics_;
+  Dialect dialect_;
   std::size_t at_ = 0;
   std::size_t bad_until_ = static_cast<std::size_t>(-1);
   bool utf8_reported_ = false;
@@ -181,8 +199,8 @@ class Lexer {
 
 }  // namespace
 
-std::vector<Token> tokenize(const Source& source, Diagnostics& diagnostics) {
-  return Lexer(source, diagnostics).run();
+std::vector<Token> tokenize(const Source& source, Diagnostics& diagnostics, Dialect dialect) {
+  return Lexer(source, diagnostics, dialect).run();
 }
 
 }  // namespace hcsp::lang

@@ -8,7 +8,7 @@ namespace hcsp::lang {
 
 namespace {
 
-constexpr std::array<std::string_view, 30> kPunctuation{"the end of the file",
+constexpr std::array<std::string_view, 31> kPunctuation{"the end of the file",
                                                         "a name",
                                                         "a number",
                                                         "a string",
@@ -32,6 +32,7 @@ constexpr std::array<std::string_view, 30> kPunctuation{"the end of the file",
                                                         "`/`",
                                                         "`^`",
                                                         "`\\`",
+                                                        "`'`",
                                                         "`==`",
                                                         "`!=`",
                                                         "`<`",

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tokens of the .hcsp language. Comments and white space stand between tokens and are none.
+// Tokens of the .hcsp language, and of Minibex. Comments and white space stand between tokens and are none.
 #pragma once
 
 #include <string>
@@ -37,6 +37,7 @@ enum class TokenKind : std::uint8_t {
   slash,
   caret,
   backslash,
+  apostrophe,  // of Minibex alone
   equal,
   not_equal,
   less,
@@ -113,8 +114,13 @@ std::string describe(const Token& token);
 /// Every keyword, for suggestions.
 const std::vector<std::string>& keywords();
 
+/// Minibex has transposition, doubles by their bits (#3ff0000000000000) and comments of any bytes; it has
+/// none of
+/// `..` and `+-`, and its words are all identifiers: which of them are keywords is the parser's business.
+enum class Dialect : std::uint8_t { hcsp, minibex };
+
 /// The tokens of a source, with `end` last. What is no token is reported and skipped, one report a run of
 /// such bytes.
-std::vector<Token> tokenize(const Source& source, Diagnostics& diagnostics);
+std::vector<Token> tokenize(const Source& source, Diagnostics& diagnostics, Dialect dialect = Dialect::hcsp);
 
 }  // namespace hcsp::lang

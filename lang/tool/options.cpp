@@ -51,7 +51,9 @@ void declare_search(CLI::App& app, Options& options) {
 }
 
 void declare(CLI::App& app, Options& options, Written& written) {
-  app.add_option("MODEL", options.model, "The model, a .hcsp file")->option_text(" ");
+  app.add_option("MODEL", options.model,
+                 "The model: a .hcsp file, or a Minibex file of IBEX (.bch, .mbx, .txt)")
+      ->option_text(" ");
   app.add_option("--set", written.parameters, "NAME=VALUE: replace the value of a param (may repeat)")
       ->allow_extra_args(false)
       ->option_text("NAME=VALUE");

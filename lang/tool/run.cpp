@@ -11,6 +11,7 @@
 #include <optional>
 
 #include "lang/data/file.h"
+#include "lang/minibex/minibex.h"
 #include "lang/syntax/format.h"
 #include "lang/tool/files.h"
 #include "lang/tool/summary.h"
@@ -153,7 +154,13 @@ int explain(const std::string& code) {
   return kFinished;
 }
 
+int not_of_minibex(std::string_view option) {
+  fmt::print(stderr, "hcsp-solve: {} is not there for Minibex files\n", option);
+  return kWrongUsage;
+}
+
 int format(const Options& options) {
+  if (lang::minibex::is_minibex(options.model)) return not_of_minibex("--format");
   std::string error;
   auto text = lang::read_file(options.model, error);
   if (!text) {
@@ -178,6 +185,7 @@ int format(const Options& options) {
 int run(const Options& options) {
   if (!options.explain.empty()) return explain(options.explain);
   if (options.format) return format(options);
+  if (options.dump == "ast" && lang::minibex::is_minibex(options.model)) return not_of_minibex("--dump ast");
   if (!can_write(options.checkpoint)) return kWrongInput;
   lang::Compilation compilation = lang::compile_file(options.model, options.compile);
   if (options.dump == "ast") fmt::print("{}", lang::dump(*compilation.tree));
@@ -194,6 +202,10 @@ int run(const Options& options) {
   }
   if (!draw_graph(options, compilation.model->problem->graph())) return kWrongInput;
   if (options.check_only || !options.dump.empty()) return kFinished;
+  if (compilation.model->goal == lang::SolveItem::Goal::minimize) {
+    fmt::print(stderr, "hcsp-solve: {}: minimizing is not supported yet\n", options.model);
+    return kWrongInput;
+  }
   return solve_and_tell(options, *compilation.model);
 }
 

@@ -22,6 +22,13 @@ NodeId Dag::constant(const Interval& value) {
   return intern(node);
 }
 
+NodeId Dag::own_constant(const Interval& value) {
+  DagNode node;
+  node.value = value;
+  node.input.component = ++own_constants_;  // only to tell it from others
+  return intern(node);
+}
+
 NodeId Dag::input(const Input& input) {
   DagNode node;
   node.op = Op::input;

@@ -86,6 +86,8 @@ class Dag {
   /// An unknown that is the same wherever the constant stands: [value] is a domain, not a set of values to
   /// try.
   NodeId constant(const Interval& value);
+  /// Another unknown than every other constant, though the bounds be the same.
+  NodeId own_constant(const Interval& value);
   NodeId input(const Input& input);
   /// Throws std::invalid_argument when the number of operands is not the operator's.
   NodeId apply(Op op, std::array<NodeId, 3> operands, int count);
@@ -99,6 +101,7 @@ class Dag {
 
   std::vector<DagNode> nodes_;
   std::map<Key, NodeId> known_;
+  std::uint32_t own_constants_ = 0;
 };
 
 /// The nodes that the roots need, in the order of their indices, which is an evaluation order. Costs what

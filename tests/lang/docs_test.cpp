@@ -1,27 +1,45 @@
 // SPDX-License-Identifier: Apache-2.0
-// docs/language.md is true: its models compile, and it lists every diagnostic and every reserved word.
+// docs/language.md is true: its models compile, and it lists every diagnostic and every reserved word; so is
+// docs/minibex.md.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "corpus.h"
+#include "lang/minibex/words.h"
 #include "lang/syntax/token.h"
 
 namespace hcsp::lang {
 namespace {
 
-std::string page() { return read_text(std::filesystem::path(HCSP_SOURCE_DIR) / "docs" / "language.md"); }
+std::string page(const std::string& name = "language.md") {
+  return read_text(std::filesystem::path(HCSP_SOURCE_DIR) / "docs" / name);
+}
 
-TEST(Docs, ModelsCompile) {
-  const std::string text = page();
-  const std::string open = "```hcsp\n";
+// Compiles the snippets of a language; how many there are.
+std::size_t compile_snippets(const std::string& text, const std::string& language, const std::string& name) {
+  const std::string open = "```" + language + "\n";
   std::size_t count = 0;
   for (std::size_t at = text.find(open); at != std::string::npos; at = text.find(open, at + 1)) {
     const std::size_t begin = at + open.size();
     const std::string model = text.substr(begin, text.find("```", begin) - begin);
-    EXPECT_EQ(compile_as("data/snippet.hcsp", model).diagnostics.text(), "");
+    EXPECT_EQ(compile_as(name, model).diagnostics.text(), "");
     ++count;
   }
-  EXPECT_GE(count, 5);
+  return count;
+}
+
+TEST(Docs, ModelsCompile) { EXPECT_GE(compile_snippets(page(), "hcsp", "data/snippet.hcsp"), 5); }
+
+TEST(Docs, MinibexFilesCompile) {
+  EXPECT_GE(compile_snippets(page("minibex.md"), "minibex", "data/snippet.bch"), 1);
+}
+
+TEST(Docs, ListEveryWordOfMinibex) {
+  const std::string text = page("minibex.md");
+  for (const minibex::Word& word : minibex::words()) {
+    if (word.name.starts_with("arc")) continue;  // arcsin and so on
+    EXPECT_THAT(text, testing::ContainsRegex(fmt::format("[` ]{}[`( ]", word.name)));
+  }
 }
 
 TEST(Docs, ListEveryDiagnostic) {

@@ -105,6 +105,33 @@ TEST(Fuzz, MutatedModelsGiveAnAnswerOrDiagnostics) {
   EXPECT_GT(compiled, kRounds / 20);
 }
 
+TEST(Fuzz, MutatedMinibexFilesGiveAnAnswerOrDiagnostics) {
+  const std::vector<std::string> endings{".bch", ".mbx", ".txt"};
+  std::vector<std::string> good;
+  std::vector<std::string> texts;
+  for (const auto& file : models_in(kLangTests / "minibex" / "good", endings))
+    good.push_back(read_text(file));
+  for (const auto& file : models_in(kLangTests / "minibex" / "bad", endings))
+    texts.push_back(read_text(file));
+  texts.insert(texts.end(), good.begin(), good.end());
+  constexpr unsigned kRounds = 3000;
+  unsigned compiled = 0;
+  for (unsigned seed = first_seed(); seed < first_seed() + kRounds; ++seed) {
+    std::mt19937 random(seed);
+    const auto& origins = seed % 4 == 0 ? texts : good;
+    const std::string text = mutated(origins[below(origins.size(), random)], random, texts);
+    SCOPED_TRACE(fmt::format("seed {}:\n{}", seed, text));
+    const auto start = std::chrono::steady_clock::now();
+    const Compilation compilation = compile_text({"mutant.bch", text});
+    const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
+    compiled += compilation.model.has_value() ? 1 : 0;
+    EXPECT_EQ(compilation.model.has_value(), !compilation.diagnostics.any());
+    EXPECT_EQ(compilation.diagnostics.text().empty(), compilation.model.has_value());
+    EXPECT_LT(taken.count(), kLongestSeconds);
+  }
+  EXPECT_GT(compiled, kRounds / 20);
+}
+
 // What a fuzzer found that took new paths.
 TEST(Fuzz, KeptInputsGiveAnAnswerOrDiagnostics) {
   std::size_t read = 0;
