@@ -76,22 +76,27 @@ Place center_of(const Place& place) {
   return center;
 }
 
-/// From a place whose image is inside of it: images of images, until they lie in the box.
+bool lies_in(const Place& place, const Place& box) {
+  return std::equal(place.begin(), place.end(), box.begin(),
+                    [](const Precise& a, const Precise& b) { return a.lies_in(b); });
+}
+
+/// A place around the box whose image is inside of it has one zero, which all images of images enclose: until
+/// one lies in the box. A zero that is a double in the middle of the box may be narrower than any image.
 std::optional<Place> refined(const Operator& of, Place place, const Place& box) {
-  constexpr int kMostRounds = 40;  // a side around 0 may be tiny
-  for (int round = 0; round < kMostRounds; ++round) {
-    const auto lies = [](const Precise& a, const Precise& b) { return a.lies_in(b); };
-    if (round > 0 && std::equal(place.begin(), place.end(), box.begin(), lies)) return place;
-    const Place center = center_of(round == 0 ? box : place);
-    if (std::equal(center.begin(), center.end(), box.begin(), lies) && of.is_exact_zero(center))
-      return center;
-    const std::vector<Precise> image = of.image(place, center);
-    for (std::size_t u = 0; u < place.size(); ++u) {
-      if (round == 0 && !image[u].lies_inside(place[u])) return std::nullopt;
-      place[u] = Precise::common(place[u], image[u]);
-    }
+  const Place middle = center_of(box);
+  const std::vector<Precise> image = of.image(place, middle);
+  for (std::size_t u = 0; u < place.size(); ++u) {
+    if (!image[u].lies_inside(place[u])) return std::nullopt;
   }
-  return std::nullopt;
+  if (lies_in(middle, box) && of.is_exact_zero(middle)) return middle;
+  place = image;
+  constexpr int kMostRounds = 40;  // a side around 0 may be tiny
+  for (int round = 0; round < kMostRounds && !lies_in(place, box); ++round) {
+    const std::vector<Precise> next = of.image(place, center_of(place));
+    for (std::size_t u = 0; u < place.size(); ++u) place[u] = Precise::common(place[u], next[u]);
+  }
+  return lies_in(place, box) ? std::optional<Place>(place) : std::nullopt;
 }
 
 /// A box and a margin around it: a zero at its edge is inside.
