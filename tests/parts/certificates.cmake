@@ -11,6 +11,9 @@ add_executable(verifier_tests verifier/verifier_test.cpp)
 target_link_libraries(verifier_tests PRIVATE hcsp_verifier hcsp_test_support)
 gtest_discover_tests(verifier_tests TEST_PREFIX verifier. DISCOVERY_TIMEOUT 60)
 
+add_test(NAME verifier.independence
+  COMMAND sh -c "! grep -nE '#include \"(domains|solver|lang)/' ${CMAKE_CURRENT_SOURCE_DIR}/verifier/*")
+
 # What a model has to show: so many certificates, each of them confirmed.
 function(hcsp_add_certificates name model count)
   add_test(NAME certificates.${name} COMMAND ${CMAKE_COMMAND} -DSOLVE=$<TARGET_FILE:hcsp-solve>
