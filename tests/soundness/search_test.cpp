@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The search for all solutions on random systems built around a known one, and on systems that have none:
-// what is known is in the answer, and nothing is certified that is not there.
+// what is known is in the answer, and nothing is certified that is not there. With HCSP_FULL=1, of more than
+// 20,000 systems with a known solution; of more than 1,000 without one always.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -123,14 +124,16 @@ TEST(RandomSystems, KeepTheKnownSolution) {
     ASSERT_LE(unique, 1);
     certified += static_cast<int>(unique);
   }
-  EXPECT_GT(tried, instances(700));
+  EXPECT_GT(tried, instances(1000));
   EXPECT_GT(certified, instances(60));
+  RecordProperty("tried", tried);
+  RecordProperty("certified", certified);
 }
 
 // An equation f^2 + e == 0, e > 0, among regular ones: nothing may be certified.
 TEST(RandomSystems, CertifyNothingWhereThereIsNothing) {
   int tried = 0;
-  for (int seed = 1; seed <= instances(400); ++seed) {
+  for (int seed = 1; seed <= instances(1300); ++seed) {
     SCOPED_TRACE(seed);
     RandomSystem system(seed, 800000);
     auto& [random, dim, known, problem, unknowns, make, place] = system;
@@ -153,7 +156,8 @@ TEST(RandomSystems, CertifyNothingWhereThereIsNothing) {
       ASSERT_EQ(solution.certificate, Certificate::none)
           << to_string(std::get<Box>(solution.variables[0].domain));
   }
-  EXPECT_GT(tried, instances(200));
+  EXPECT_GT(tried, instances(1000));
+  RecordProperty("tried", tried);
 }
 
 }  // namespace hcsp::soundness
