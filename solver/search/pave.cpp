@@ -2,6 +2,7 @@
 #include "solver/search/pave.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <mutex>
 #include <string>
@@ -35,10 +36,10 @@ class Paver {
     std::string path;         // from the root: the order of nodes
     int rest = 0, vain = 0;  // how many cuts separators are not worth a try, and how often they gained little
   };
-  // The boxes that a node left behind, in the order of found_.
+  // Where what a node left behind begins in `found`, and where it ends.
   struct Leaves {
     std::string path;
-    PavedBoxes boxes;
+    std::array<std::size_t, 3> first, last;
   };
 
   Paver(const PointSet& set, const SearchOptions& options, std::size_t batch)
@@ -51,15 +52,16 @@ class Paver {
   Paver& operator=(const Paver&) = delete;
 
   void explore(Node& node, std::vector<Node>& children) {
-    PavedBoxes& found = (leaves.push_back({node.path, {}}), leaves.back().boxes);
+    const std::array<std::size_t, 3> first_found = sizes();
     cells += node.boxes.size() / set_.dim;
-    keep_open(node.boxes, found);
+    keep_open(node.boxes);
     if (node.rest > 0) {
       --node.rest;
     } else {
-      separate(node, found);
+      separate(node);
     }
-    cut_boxes(node.boxes, found);
+    cut_boxes(node.boxes);
+    leaves.push_back({node.path, first_found, sizes()});
     const std::size_t most = batch_ * set_.dim;
     for (std::size_t first = 0; first < next_.size(); first += most) {
       Node& child = children.emplace_back();
@@ -72,12 +74,17 @@ class Paver {
     }
   }
 
+  PavedBoxes found;
   std::vector<Leaves> leaves;
   std::uint64_t cells = 0;
 
  private:
+  [[nodiscard]] std::array<std::size_t, 3> sizes() const {
+    return {found.inside.size(), found.boundary.size(), found.outside.size()};
+  }
+
   // Leaves of some boxes those that are not decided.
-  void keep_open(std::vector<Interval>& boxes, PavedBoxes& found) {
+  void keep_open(std::vector<Interval>& boxes) {
     membership_.decide(boxes, verdicts_);
     auto left = boxes.begin();
     for (std::size_t k = 0; k < verdicts_.size(); ++k) {
@@ -94,9 +101,9 @@ class Paver {
   }
 
   // Where they gain little they are tried less and less often: to decide parts is cheaper.
-  void separate(Node& node, PavedBoxes& found) {
+  void separate(Node& node) {
     constexpr double kMuch = 0.25;
-    constexpr int kMostVain = 4;
+    constexpr int kMostVain = 6;
     const std::size_t dim = set_.dim;
     double share = 0.0;
     std::size_t left = 0;
@@ -113,7 +120,7 @@ class Paver {
       node.vain = 0;
     } else {
       node.vain = std::min(node.vain + 1, kMostVain);
-      node.rest = (1 << 2 * node.vain) - 1;
+      node.rest = 1 << 3 * node.vain;
     }
   }
 
@@ -146,7 +153,7 @@ class Paver {
   }
 
   // Each across its widest side; those that are small enough are the boundary.
-  void cut_boxes(const std::vector<Interval>& boxes, PavedBoxes& found) {
+  void cut_boxes(const std::vector<Interval>& boxes) {
     next_.clear();
     for (std::size_t first = 0; first < boxes.size(); first += set_.dim) {
       const std::span<const Interval> box(&boxes[first], set_.dim);
@@ -190,8 +197,31 @@ class Paver {
   std::vector<std::uint8_t> tried_;
 };
 
-void append(std::vector<Interval>& all, const std::vector<Interval>& more) {
-  all.insert(all.end(), more.begin(), more.end());
+// The boxes of all pavers, in the order of the nodes that left them.
+PavedBoxes gathered(const std::vector<const Paver*>& pavers) {
+  struct Left {
+    const Paver* by;
+    const Paver::Leaves* leaves;
+  };
+  std::vector<Left> all;
+  for (const Paver* paver : pavers) {
+    for (const Paver::Leaves& leaves : paver->leaves) all.push_back({paver, &leaves});
+  }
+  std::sort(all.begin(), all.end(),
+            [](const Left& a, const Left& b) { return a.leaves->path < b.leaves->path; });
+  PavedBoxes boxes;
+  std::size_t kind = 0;
+  for (const auto of : {&PavedBoxes::inside, &PavedBoxes::boundary, &PavedBoxes::outside}) {
+    std::size_t size = 0;
+    for (const Paver* paver : pavers) size += (paver->found.*of).size();
+    (boxes.*of).reserve(size);
+    for (const auto& [by, leaves] : all) {
+      const Interval* found = (by->found.*of).data();
+      (boxes.*of).insert((boxes.*of).end(), found + leaves->first[kind], found + leaves->last[kind]);
+    }
+    ++kind;
+  }
+  return boxes;
 }
 
 }  // namespace
@@ -214,18 +244,14 @@ PavingAnswer pave(const PointSet& set, const SearchOptions& options) {
     return Paver(set, options, batch);
   });
   search.run({root});
-  std::vector<const Paver::Leaves*> leaves;
+  std::vector<const Paver*> pavers;
   for (const Paver& paver : search.explorers()) {
     answer.cells += paver.cells;
-    for (const Paver::Leaves& some : paver.leaves) leaves.push_back(&some);
+    pavers.push_back(&paver);
   }
-  std::sort(leaves.begin(), leaves.end(), [](const auto* a, const auto* b) { return a->path < b->path; });
-  for (const Paver::Leaves* some : leaves) {
-    append(answer.boxes.inside, some->boxes.inside);
-    append(answer.boxes.boundary, some->boxes.boundary);
-    append(answer.boxes.outside, some->boxes.outside);
-  }
-  for (const Paver::Node& node : search.open()) append(answer.unexplored, node.boxes);
+  answer.boxes = gathered(pavers);
+  for (const Paver::Node& node : search.open())
+    answer.unexplored.insert(answer.unexplored.end(), node.boxes.begin(), node.boxes.end());
   return answer;
 }
 

@@ -84,7 +84,7 @@ int main(int argc, char** argv) {
         ->UseRealTime()
         ->Unit(benchmark::kMillisecond);
   };
-  add("ring", ring, 9e-4);
+  add("ring", ring, 1e-3);
   add("waves", waves, 0.01);
   add("decay", decay, 1e-3);
   add("projection", projection, 0.02);
