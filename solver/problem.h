@@ -120,8 +120,8 @@ class Problem {
   Expr instant(std::string name);
   /// The identity tube t.
   Expr time();
-  /// "For every real of `domain`, relation(it)", and "for some real": relations. The real is one more unknown,
-  /// bound there. Paving decides them; propagation contracts by the weaker relation "for some", and
+  /// "For every real of `domain`, relation(it)", and "for some real": relations. The real is one more
+  /// unknown, bound there. Paving decides them; propagation contracts by the weaker relation "for some", and
   /// solve_all() does not take them.
   Expr for_every(std::string name, const Interval& domain, const std::function<Expr(Expr)>& relation);
   Expr for_some(std::string name, const Interval& domain, const std::function<Expr(Expr)>& relation);

@@ -44,8 +44,7 @@ bool Problem::is_region() const {
   return all_reals && impl_->is_system;
 }
 
-Expr Problem::for_every(std::string name, const Interval& domain,
-                        const std::function<Expr(Expr)>& relation) {
+Expr Problem::for_every(std::string name, const Interval& domain, const std::function<Expr(Expr)>& relation) {
   return impl_->quantified(Op::for_every, name, domain, relation);
 }
 
@@ -92,8 +91,8 @@ Result Problem::pave(const std::vector<Expr>& variables, const SearchOptions& op
   const double started = options.clock();
   const PointSet set = impl_->point_set_of(variables);
   PavingAnswer answer = hcsp::pave(set, options);
-  const std::vector<System::Unknown> coordinates(
-      set.unknowns.begin(), set.unknowns.begin() + static_cast<std::ptrdiff_t>(set.dim));
+  const std::vector<System::Unknown> coordinates(set.unknowns.begin(),
+                                                 set.unknowns.begin() + static_cast<std::ptrdiff_t>(set.dim));
   Result result;
   result.model = impl_->name;
   Paving& paving = result.paving.emplace();

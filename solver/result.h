@@ -126,14 +126,14 @@ struct SolutionSet {
 
 /// Boxes that cover the domain of some unknowns, the coordinates: flat, so many intervals a box.
 struct Paving {
-  std::vector<std::string> names;   ///< of the coordinates
-  std::vector<Interval> inside;     ///< every point is a solution, for some values of the other unknowns
-  std::vector<Interval> boundary;   ///< undecided, and as small as was asked for
-  std::vector<Interval> outside;    ///< no point is a solution
-  std::vector<Interval> unexplored; ///< undecided when a limit stopped the search
-  double inside_volume = 0.0;       ///< a lower bound of the inside boxes' volume; a whole number counts 1
-  double boundary_volume = 0.0;     ///< an upper bound of that of the boundary and of what is unexplored
-  std::uint64_t cells = 0;          ///< boxes that were looked at
+  std::vector<std::string> names;    ///< of the coordinates
+  std::vector<Interval> inside;      ///< every point is a solution, for some values of the other unknowns
+  std::vector<Interval> boundary;    ///< undecided, and as small as was asked for
+  std::vector<Interval> outside;     ///< no point is a solution
+  std::vector<Interval> unexplored;  ///< undecided when a limit stopped the search
+  double inside_volume = 0.0;        ///< a lower bound of the inside boxes' volume; a whole number counts 1
+  double boundary_volume = 0.0;      ///< an upper bound of that of the boundary and of what is unexplored
+  std::uint64_t cells = 0;           ///< boxes that were looked at
 };
 
 struct Result {

@@ -321,8 +321,8 @@ void Checker::check_solve(const SolveItem& item, const SourceRange& range) {
     return;
   }
   if (item.goal == SolveItem::Goal::propagate && item.precision == nullptr) return;
-  constexpr std::string_view kGoals[] = {"a precision of `solve propagate`", "", "",
-                                         "`solve minimize`", "`solve maximize`"};
+  constexpr std::string_view kGoals[] = {"a precision of `solve propagate`", "", "", "`solve minimize`",
+                                         "`solve maximize`"};
   not_supported(range, kGoals[static_cast<std::size_t>(item.goal)]);
 }
 

@@ -77,7 +77,7 @@ void Compiler::check_goal() {
   if (is_paving ? problem_->is_region() : problem_->is_system()) return;
   for (const Item& item : model_.tree().items) {
     if (!std::holds_alternative<SolveItem>(item.content)) continue;
-    not_supported(item.range, is_paving              ? "`solve pave` of more than relations between numbers"
+    not_supported(item.range, is_paving               ? "`solve pave` of more than relations between numbers"
                               : problem_->is_region() ? "`solve all` with quantifiers over reals"
                                                       : "`solve all` of more than relations between numbers");
   }
@@ -88,9 +88,9 @@ void Compiler::find_paved() {
   for (const Expr* paved : model_.goal->arguments) {
     for (const Term& term : evaluator_.value(*paved)) {
       const auto& coordinate = std::get<hcsp::Expr>(term);
-      const bool is_new = std::none_of(model_.paved.begin(), model_.paved.end(), [&](const hcsp::Expr& other) {
-        return other.node() == coordinate.node();
-      });
+      const bool is_new =
+          std::none_of(model_.paved.begin(), model_.paved.end(),
+                       [&](const hcsp::Expr& other) { return other.node() == coordinate.node(); });
       if (!is_new) {
         model_.diagnostics().report(Code::paved_twice, paved->range, paved->range.text().substr(0, 40));
         break;

@@ -63,7 +63,8 @@ Value Evaluator::over_reals(const Expr& expr) {
     bind(local, {});
     for (Eigen::Index i = 0; i < domain->dim(); ++i) {
       const std::string text(bound.name.text);
-      components.push_back({domain->dim() == 1 ? text : fmt::format("{}[{}]", text, i + 1), local, (*domain)[i]});
+      components.push_back(
+          {domain->dim() == 1 ? text : fmt::format("{}[{}]", text, i + 1), local, (*domain)[i]});
     }
   }
   Value body;

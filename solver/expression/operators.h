@@ -366,8 +366,8 @@ struct Or : Boundwise {
 };
 
 /// Operands: the real that is bound, over its declared domain, and a relation. With the whole domain in the
-/// bound operand the relation's own value encloses the quantifier's, and what contracts it contracts that: what
-/// holds for every value holds for some. search/membership.h tells more.
+/// bound operand the relation's own value encloses the quantifier's, and what contracts it contracts that:
+/// what holds for every value holds for some. search/membership.h tells more.
 struct ForEvery : Boundwise {
   static I forward(const I&, const I& b, const I&) { return b; }
   static void backward(const I& y, I&, I& b, I&) { b = meet(b, y); }

@@ -81,7 +81,7 @@ bool Existence::holds(std::span<const Interval> box, Narrowing& narrowing) {
     if (is_solved_for_[v]) continue;
     const double middle = cut_of(guess_[v]);
     around_[v] = set_.unknowns[v].is_whole ? whole_numbers_of(Interval::raw(middle - 0.5, middle + 0.5))
-                                              : Interval::raw(middle, middle);
+                                           : Interval::raw(middle, middle);
   }
   if (!lies_within(around_)) return false;
   Verdict verdict = Verdict::yes;

@@ -48,7 +48,8 @@ class Plain final : public Part {
   std::vector<std::uint32_t> places_;
 };
 
-// At least `least` of some relations hold. A relation is asked of the boxes only that those before leave open.
+// At least `least` of some relations hold. A relation is asked of the boxes only that those before leave
+// open.
 class Count final : public Part {
  public:
   Count(std::size_t size, std::size_t least, Parts parts)
@@ -219,8 +220,7 @@ void Membership::decide(std::span<const Interval> boxes, std::vector<Verdict>& v
   for (std::size_t k = 0; k < verdicts.size(); ++k) {
     const auto box = boxes.subspan(k * set_.dim, set_.dim);
     extended_.insert(extended_.end(), box.begin(), box.end());
-    for (std::size_t v = set_.dim; v < set_.size(); ++v)
-      extended_.push_back(set_.unknowns[v].domain);
+    for (std::size_t v = set_.dim; v < set_.size(); ++v) extended_.push_back(set_.unknowns[v].domain);
   }
   whole_->decide(extended_, verdicts);
 }

@@ -33,7 +33,7 @@ class Paver {
  public:
   struct Node {
     std::vector<Interval> boxes;
-    std::string path;         // from the root: the order of nodes
+    std::string path;        // from the root: the order of nodes
     int rest = 0, vain = 0;  // how many cuts separators are not worth a try, and how often they gained little
   };
   // Where what a node left behind begins in `found`, and where it ends.
@@ -43,11 +43,7 @@ class Paver {
   };
 
   Paver(const PointSet& set, const SearchOptions& options, std::size_t batch)
-      : set_(set),
-        precision_(options.precision),
-        batch_(batch),
-        membership_(set),
-        separator_(set) {}
+      : set_(set), precision_(options.precision), batch_(batch), membership_(set), separator_(set) {}
   Paver(const Paver&) = delete;
   Paver& operator=(const Paver&) = delete;
 
@@ -229,8 +225,7 @@ PavedBoxes gathered(const std::vector<const Paver*>& pavers) {
 PavingAnswer pave(const PointSet& set, const SearchOptions& options) {
   // Many boxes at once are cheap where there is nothing but arithmetic to decide; else threads share them.
   constexpr std::size_t kFewBoxes = 4;
-  const std::size_t batch =
-      has_quantifier(set.dag, set.relation) ? kFewBoxes : Evaluation::kMaxLanes;
+  const std::size_t batch = has_quantifier(set.dag, set.relation) ? kFewBoxes : Evaluation::kMaxLanes;
   PavingAnswer answer;
   Paver::Node root;
   for (std::size_t v = 0; v < set.dim; ++v) {

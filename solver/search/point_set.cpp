@@ -52,7 +52,8 @@ bool cut_across(const PointSet& set, std::span<const Interval> box, std::uint32_
   const bool is_whole = set.unknowns[unknown].is_whole;
   if (is_whole) cut = std::floor(cut);
   const double next = is_whole ? cut + 1.0 : cut;
-  if (is_whole ? !(side.lo() <= cut && next <= side.hi() && cut < next) : !(side.lo() < cut && cut < side.hi()))
+  if (is_whole ? !(side.lo() <= cut && next <= side.hi() && cut < next)
+               : !(side.lo() < cut && cut < side.hi()))
     return false;
   const std::size_t first = parts.size();
   parts.insert(parts.end(), box.begin(), box.end());

@@ -128,7 +128,8 @@ class Quantified final : public Membership::Part {
   bool cut(std::span<const Interval> part, double finest) {
     const auto widest = *std::max_element(
         own_.begin(), own_.end(), [&](auto u, auto v) { return share_of(part, u) < share_of(part, v); });
-    return share_of(part, widest) > std::min(finest, 1.0) && cut_across(set_, part, widest, cut_of(part[widest]), next_);
+    return share_of(part, widest) > std::min(finest, 1.0) &&
+           cut_across(set_, part, widest, cut_of(part[widest]), next_);
   }
 
   const PointSet& set_;

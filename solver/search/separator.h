@@ -16,8 +16,8 @@ class Separator {
  public:
   explicit Separator(const PointSet& set);
 
-  /// Contracts a box of the coordinates to where the relation can be true, or false; false when it nowhere can.
-  /// PRECONDITION: the thread rounds upward.
+  /// Contracts a box of the coordinates to where the relation can be true, or false; false when it nowhere
+  /// can. PRECONDITION: the thread rounds upward.
   bool contract(std::span<Interval> box, bool wanted);
 
  private:

@@ -48,9 +48,8 @@ std::vector<Expr> projection(Problem& p) {
 // (c, d) for which a family of polynomials with p in [1, 2] stays positive.
 std::vector<Expr> robust(Problem& p) {
   const Expr c = p(p.real("c", Interval(-4.0, 4.0))), d = p(p.real("d", Interval(-4.0, 4.0)));
-  p.constrain("positive", p.for_every("p", Interval(1.0, 2.0), [&](Expr q) {
-    return sqr(q) + c * q + d > Interval(0.0);
-  }));
+  p.constrain("positive", p.for_every("p", Interval(1.0, 2.0),
+                                      [&](Expr q) { return sqr(q) + c * q + d > Interval(0.0); }));
   return {c, d};
 }
 
