@@ -1,14 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "solver/search/pave.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
+
 #include <mutex>
 #include <string>
 
 #include "domains/interval/kernel.h"
 #include "solver/expression/connectives.h"
+#include "solver/search/checkpoint.h"
 #include "solver/search/membership.h"
 #include "solver/search/separator.h"
 #include "solver/search/tree_search.h"
@@ -27,6 +31,20 @@ double volume_share(std::span<const Interval> part, std::span<const Interval> wh
   return share;
 }
 
+// What was found, and by which nodes.
+struct Findings {
+  // Where what a node left behind begins in `boxes`, and where it ends.
+  struct Leaves {
+    std::string path;
+    std::array<std::size_t, 3> first, last;
+  };
+  PavedBoxes boxes;
+  std::vector<Leaves> leaves;
+  std::uint64_t cells = 0;
+};
+
+constexpr std::array kKinds{&PavedBoxes::inside, &PavedBoxes::boundary, &PavedBoxes::outside};
+
 // What a thread needs to look at boxes, and what it found. A node is boxes side by side, which are decided
 // together.
 class Paver {
@@ -36,12 +54,6 @@ class Paver {
     std::string path;        // from the root: the order of nodes
     int rest = 0, vain = 0;  // how many cuts separators are not worth a try, and how often they gained little
   };
-  // Where what a node left behind begins in `found`, and where it ends.
-  struct Leaves {
-    std::string path;
-    std::array<std::size_t, 3> first, last;
-  };
-
   Paver(const PointSet& set, const SearchOptions& options, std::size_t batch)
       : set_(set), precision_(options.precision), batch_(batch), membership_(set), separator_(set) {}
   Paver(const Paver&) = delete;
@@ -49,7 +61,7 @@ class Paver {
 
   void explore(Node& node, std::vector<Node>& children) {
     const std::array<std::size_t, 3> first_found = sizes();
-    cells += node.boxes.size() / set_.dim;
+    findings.cells += node.boxes.size() / set_.dim;
     keep_open(node.boxes);
     if (node.rest > 0) {
       --node.rest;
@@ -57,7 +69,7 @@ class Paver {
       separate(node);
     }
     cut_boxes(node.boxes);
-    leaves.push_back({node.path, first_found, sizes()});
+    findings.leaves.push_back({node.path, first_found, sizes()});
     const std::size_t most = batch_ * set_.dim;
     for (std::size_t first = 0; first < next_.size(); first += most) {
       Node& child = children.emplace_back();
@@ -70,13 +82,11 @@ class Paver {
     }
   }
 
-  PavedBoxes found;
-  std::vector<Leaves> leaves;
-  std::uint64_t cells = 0;
+  Findings findings;
 
  private:
   [[nodiscard]] std::array<std::size_t, 3> sizes() const {
-    return {found.inside.size(), found.boundary.size(), found.outside.size()};
+    return {found_.inside.size(), found_.boundary.size(), found_.outside.size()};
   }
 
   // Leaves of some boxes those that are not decided.
@@ -89,7 +99,7 @@ class Paver {
       if (verdicts_[k] == Verdict::open) {
         left = std::copy(box, end, left);
       } else {
-        auto& kind = verdicts_[k] == Verdict::yes ? found.inside : found.outside;
+        auto& kind = verdicts_[k] == Verdict::yes ? found_.inside : found_.outside;
         kind.insert(kind.end(), box, end);
       }
     }
@@ -107,7 +117,7 @@ class Paver {
     for (std::size_t k = 0; k < count; ++k) {
       const std::span<Interval> box(&node.boxes[k * dim], dim);
       before_.assign(box.begin(), box.end());
-      if (!separate(box, true, found.outside) || !separate(box, false, found.inside)) continue;
+      if (!separate(box, true, found_.outside) || !separate(box, false, found_.inside)) continue;
       share += volume_share(box, before_);
       std::copy(box.begin(), box.end(), node.boxes.begin() + static_cast<std::ptrdiff_t>(left++ * dim));
     }
@@ -153,7 +163,7 @@ class Paver {
     next_.clear();
     for (std::size_t first = 0; first < boxes.size(); first += set_.dim) {
       const std::span<const Interval> box(&boxes[first], set_.dim);
-      if (!cut(box)) found.boundary.insert(found.boundary.end(), box.begin(), box.end());
+      if (!cut(box)) found_.boundary.insert(found_.boundary.end(), box.begin(), box.end());
     }
   }
 
@@ -183,6 +193,7 @@ class Paver {
     }
   }
 
+  PavedBoxes& found_ = findings.boxes;
   const PointSet& set_;
   double precision_;
   std::size_t batch_;
@@ -193,61 +204,137 @@ class Paver {
   std::vector<std::uint8_t> tried_;
 };
 
-// The boxes of all pavers, in the order of the nodes that left them.
-PavedBoxes gathered(const std::vector<const Paver*>& pavers) {
+// All that was found, in the order of the nodes that left it.
+PavedBoxes gathered(const std::vector<const Findings*>& parts) {
   struct Left {
-    const Paver* by;
-    const Paver::Leaves* leaves;
+    const PavedBoxes* boxes;
+    const Findings::Leaves* leaves;
   };
   std::vector<Left> all;
-  for (const Paver* paver : pavers) {
-    for (const Paver::Leaves& leaves : paver->leaves) all.push_back({paver, &leaves});
+  for (const Findings* part : parts) {
+    for (const Findings::Leaves& leaves : part->leaves) all.push_back({&part->boxes, &leaves});
   }
   std::sort(all.begin(), all.end(),
             [](const Left& a, const Left& b) { return a.leaves->path < b.leaves->path; });
-  PavedBoxes boxes;
-  std::size_t kind = 0;
-  for (const auto of : {&PavedBoxes::inside, &PavedBoxes::boundary, &PavedBoxes::outside}) {
+  PavedBoxes gathered;
+  for (std::size_t kind = 0; kind < kKinds.size(); ++kind) {
+    std::vector<Interval>& one_kind = gathered.*kKinds[kind];
     std::size_t size = 0;
-    for (const Paver* paver : pavers) size += (paver->found.*of).size();
-    (boxes.*of).reserve(size);
-    for (const auto& [by, leaves] : all) {
-      const Interval* found = (by->found.*of).data();
-      (boxes.*of).insert((boxes.*of).end(), found + leaves->first[kind], found + leaves->last[kind]);
+    for (const Findings* part : parts) size += (part->boxes.*kKinds[kind]).size();
+    one_kind.reserve(size);
+    for (const auto& [boxes, leaves] : all) {
+      const Interval* found = (boxes->*kKinds[kind]).data();
+      one_kind.insert(one_kind.end(), found + leaves->first[kind], found + leaves->last[kind]);
     }
-    ++kind;
   }
-  return boxes;
+  return gathered;
 }
+
+nlohmann::json json_of(const Findings& findings) {
+  auto leaves = nlohmann::json::array(), boxes = nlohmann::json::array();
+  for (const Findings::Leaves& some : findings.leaves) leaves.push_back({some.path, some.first, some.last});
+  for (const auto kind : kKinds) boxes.push_back(json_of(findings.boxes.*kind));
+  return {{"leaves", leaves}, {"boxes", boxes}, {"cells", findings.cells}};
+}
+
+Findings findings_of(const nlohmann::json& state) {
+  Findings findings;
+  for (const auto& some : state.at("leaves"))
+    findings.leaves.push_back(
+        {some[0], some[1].get<std::array<std::size_t, 3>>(), some[2].get<std::array<std::size_t, 3>>()});
+  for (std::size_t kind = 0; kind < kKinds.size(); ++kind)
+    findings.boxes.*kKinds[kind] = box_of(state.at("boxes")[kind]);
+  findings.cells = state.at("cells").get<std::uint64_t>();
+  return findings;
+}
+
+class PavingSearch {
+ public:
+  PavingSearch(const PointSet& set, const SearchOptions& options)
+      : set_(set), options_(options), mark_(mark_of_set()), tree_(options, [this] {
+          const std::lock_guard lock(making_);
+          return Paver(set_, options_, batch());
+        }) {}
+
+  PavingAnswer run() {
+    std::vector<Paver::Node> roots = options_.resume.empty() ? whole_domain() : resume();
+    if (options_.checkpoint) {
+      tree_.run(std::move(roots), [&](const auto& open) { options_.checkpoint(sealed(state(open), mark_)); });
+    } else {
+      tree_.run(std::move(roots));
+    }
+    PavingAnswer answer;
+    const std::vector<const Findings*> parts = all_findings();
+    for (const Findings* part : parts) answer.cells += part->cells;
+    answer.boxes = gathered(parts);
+    for (const Paver::Node& node : tree_.open())
+      answer.unexplored.insert(answer.unexplored.end(), node.boxes.begin(), node.boxes.end());
+    return answer;
+  }
+
+ private:
+  // Many boxes at once are cheap where there is nothing but arithmetic to decide; else threads share them.
+  [[nodiscard]] std::size_t batch() const {
+    constexpr std::size_t kFewBoxes = 4;
+    return has_quantifier(set_.dag, set_.relation) ? kFewBoxes : Evaluation::kMaxLanes;
+  }
+
+  [[nodiscard]] std::uint64_t mark_of_set() const {
+    std::vector<Interval> domains;
+    std::vector<std::uint8_t> is_whole;
+    for (const System::Unknown& unknown : set_.unknowns) {
+      domains.push_back(unknown.domain);
+      is_whole.push_back(unknown.is_whole ? 1 : 0);
+    }
+    return mark_of(set_.dag, {set_.relation}, domains, is_whole, fmt::format("pave {}", set_.dim), options_);
+  }
+
+  [[nodiscard]] std::vector<Paver::Node> whole_domain() const {
+    Paver::Node root;
+    for (std::size_t v = 0; v < set_.dim; ++v) {
+      const System::Unknown& unknown = set_.unknowns[v];
+      root.boxes.push_back(unknown.is_whole ? whole_numbers_of(unknown.domain) : unknown.domain);
+      if (root.boxes.back().is_empty()) return {};
+    }
+    return {root};
+  }
+
+  std::vector<const Findings*> all_findings() {
+    std::vector<const Findings*> parts;
+    for (const Findings& part : before_) parts.push_back(&part);
+    for (const Paver& paver : tree_.explorers()) parts.push_back(&paver.findings);
+    return parts;
+  }
+
+  nlohmann::json state(const std::vector<Paver::Node>& open) {
+    auto nodes = nlohmann::json::array(), found = nlohmann::json::array();
+    for (const Paver::Node& node : open)
+      nodes.push_back({json_of(node.boxes), node.path, node.rest, node.vain});
+    for (const Findings* part : all_findings()) found.push_back(json_of(*part));
+    return {{"open", nodes}, {"found", found}};
+  }
+
+  std::vector<Paver::Node> resume() {
+    const nlohmann::json state = opened(options_.resume, mark_);
+    for (const auto& part : state.at("found")) before_.push_back(findings_of(part));
+    std::vector<Paver::Node> open;
+    for (const auto& node : state.at("open"))
+      open.push_back({box_of(node[0]), node[1], node[2].get<int>(), node[3].get<int>()});
+    return open;
+  }
+
+  const PointSet& set_;
+  const SearchOptions& options_;
+  std::uint64_t mark_;
+  std::mutex making_;  // a paver adds to the graph while it is made
+  TreeSearch<Paver> tree_;
+  std::vector<Findings> before_;  // those of the state that was resumed
+};
 
 }  // namespace
 
 PavingAnswer pave(const PointSet& set, const SearchOptions& options) {
-  // Many boxes at once are cheap where there is nothing but arithmetic to decide; else threads share them.
-  constexpr std::size_t kFewBoxes = 4;
-  const std::size_t batch = has_quantifier(set.dag, set.relation) ? kFewBoxes : Evaluation::kMaxLanes;
-  PavingAnswer answer;
-  Paver::Node root;
-  for (std::size_t v = 0; v < set.dim; ++v) {
-    const System::Unknown& unknown = set.unknowns[v];
-    root.boxes.push_back(unknown.is_whole ? whole_numbers_of(unknown.domain) : unknown.domain);
-    if (root.boxes.back().is_empty()) return answer;
-  }
-  std::mutex at_work;  // to make a paver adds to the graph
-  TreeSearch<Paver> search(options, [&] {
-    const std::lock_guard lock(at_work);
-    return Paver(set, options, batch);
-  });
-  search.run({root});
-  std::vector<const Paver*> pavers;
-  for (const Paver& paver : search.explorers()) {
-    answer.cells += paver.cells;
-    pavers.push_back(&paver);
-  }
-  answer.boxes = gathered(pavers);
-  for (const Paver::Node& node : search.open())
-    answer.unexplored.insert(answer.unexplored.end(), node.boxes.begin(), node.boxes.end());
-  return answer;
+  return PavingSearch(set, options).run();
 }
 
 }  // namespace hcsp

@@ -315,6 +315,32 @@ TEST(Pave, WhatALimitLeftIsTold) {
   EXPECT_GE(result.paving->inside_volume + result.paving->boundary_volume, area);
 }
 
+TEST(Pave, GoesOnFromEveryCheckpoint) {
+  const auto paved = [](const SearchOptions& options) {
+    Plane plane;
+    const Expr f = plane.x * sin(plane.y) + sqr(plane.x);
+    plane.problem.constrain("c", f <= Interval(1.0));
+    return *plane.problem.pave({plane.x, plane.y}, options).paving;
+  };
+  std::vector<std::string> states;
+  SearchOptions options = precision(0.02, 2);
+  options.checkpoint_period = 1e-4;
+  options.checkpoint = [&](const std::string& state) { states.push_back(state); };
+  const Paving whole = paved(options);
+  ASSERT_FALSE(states.empty());
+  for (std::size_t k = 0; k < states.size(); k += 1 + states.size() / 10) {
+    SearchOptions again = precision(0.02);
+    again.resume = states[k];
+    const Paving resumed = paved(again);
+    EXPECT_TRUE(resumed.inside == whole.inside && resumed.boundary == whole.boundary &&
+                resumed.outside == whole.outside);
+    EXPECT_EQ(resumed.cells, whole.cells);
+  }
+  SearchOptions other = precision(0.01);
+  other.resume = states.back();
+  EXPECT_THROW(paved(other), std::invalid_argument);
+}
+
 TEST(Pave, WrongUseOfIt) {
   Plane plane;
   EXPECT_THROW(plane.problem.pave({}, precision(0.1)), std::invalid_argument);
