@@ -68,14 +68,35 @@ std::unique_ptr<Problem> Compiler::run() {
 }
 
 void Compiler::check_goal() {
-  if (model_.diagnostics().any() || model_.goal->goal != SolveItem::Goal::all) return;
+  const bool is_paving = model_.goal->goal == SolveItem::Goal::pave;
+  if (model_.diagnostics().any() || (model_.goal->goal != SolveItem::Goal::all && !is_paving)) return;
   if (model_.goal->precision != nullptr) {
     if (const auto precision = precision_of(*model_.goal->precision)) model_.precision = *precision;
   }
-  if (problem_->is_system()) return;
+  if (is_paving) find_paved();
+  if (is_paving ? problem_->is_region() : problem_->is_system()) return;
   for (const Item& item : model_.tree().items) {
-    if (std::holds_alternative<SolveItem>(item.content))
-      not_supported(item.range, "`solve all` of more than relations between numbers");
+    if (!std::holds_alternative<SolveItem>(item.content)) continue;
+    not_supported(item.range, is_paving               ? "`solve pave` of more than relations between numbers"
+                              : problem_->is_region() ? "`solve all` with quantifiers over reals"
+                                                      : "`solve all` of more than relations between numbers");
+  }
+}
+
+// The components of what is paved, in the order of the text.
+void Compiler::find_paved() {
+  for (const Expr* paved : model_.goal->arguments) {
+    for (const Term& term : evaluator_.value(*paved)) {
+      const auto& coordinate = std::get<hcsp::Expr>(term);
+      const bool is_new =
+          std::none_of(model_.paved.begin(), model_.paved.end(),
+                       [&](const hcsp::Expr& other) { return other.node() == coordinate.node(); });
+      if (!is_new) {
+        model_.diagnostics().report(Code::paved_twice, paved->range, paved->range.text().substr(0, 40));
+        break;
+      }
+      model_.paved.push_back(coordinate);
+    }
   }
 }
 

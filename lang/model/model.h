@@ -17,6 +17,7 @@
 #include "lang/model/built_in.h"
 #include "lang/model/type.h"
 #include "lang/syntax/ast.h"
+#include "solver/expression/expr.h"
 
 namespace hcsp::lang {
 
@@ -75,7 +76,8 @@ class Model {
   std::vector<const Symbol*> definitions;  ///< parameters and lets, each after those that it uses
   const Symbol* time = nullptr;
   const SolveItem* goal = nullptr;
-  double precision = 0.0;  ///< of the goal; 0 where it states none. The compiler finds it.
+  double precision = 0.0;         ///< of the goal; 0 where it states none. The compiler finds it.
+  std::vector<hcsp::Expr> paved;  ///< of `solve pave`: the coordinates. The compiler finds them.
   /// The constant instants at which tubes are taken: x(0).
   std::vector<const Expr*> instants;
   std::deque<Table> tables;

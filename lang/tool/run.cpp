@@ -96,7 +96,8 @@ std::optional<Result> search(const Options& options, const lang::CompiledModel& 
     if (state) {
       search.resume = std::move(*state);
       const Watch watch(options.memory_limit, stop_asked, shows_progress(options) ? &progress : nullptr);
-      return model.problem->solve_all(search);
+      const bool is_paving = model.goal == lang::SolveItem::Goal::pave;
+      return is_paving ? model.problem->pave(model.paved, search) : model.problem->solve_all(search);
     }
   } catch (const std::invalid_argument& refused) {
     error = refused.what();

@@ -9,6 +9,8 @@
 //   // volume: A 3.14 <= 0.5           the volume of the set is enclosed, within 0.5
 //   // infeasible                      no solution exists, and that is found
 //   // found: 4 unique                 of `solve all`: so many boxes have that certificate
+//   // boundary: <= 0.018              of `solve pave`: the boundary's volume
+//   // inside: 9.41 .. 9.43            of `solve pave`: what is proven to be inside has a volume between these
 // is solved, and its answer has to hold the solution and be no wider.
 #include <gtest/gtest.h>
 
@@ -188,6 +190,39 @@ TEST(Solutions, AreAllFoundAndCertified) {
     }
   }
   EXPECT_GE(checked, 17U);
+}
+
+// The models that ask for a paving.
+TEST(Solutions, ArePaved) {
+  static const std::regex kBoundary(R"(// boundary: <= (\S+))"), kInside(R"(// inside: (\S+) \.\. (\S+))");
+  std::size_t checked = 0;
+  for (const char* folder : {"tests/lang/good", "models/gallery"}) {
+    for (const auto& path : models_in(std::filesystem::path(HCSP_SOURCE_DIR) / folder)) {
+      const std::string text = read_text(path);
+      if (text.find("// boundary: ") == std::string::npos) continue;
+      SCOPED_TRACE(path.filename().string());
+      const Compilation compilation = compile_text({path.string(), text});
+      ASSERT_TRUE(compilation.model.has_value()) << compilation.diagnostics.text();
+      ASSERT_EQ(compilation.model->goal, SolveItem::Goal::pave);
+      SearchOptions options;
+      options.precision = compilation.model->precision;
+      options.threads = 2;
+      const Result result = compilation.model->problem->pave(compilation.model->paved, options);
+      EXPECT_EQ(result.status, Status::solved);
+      std::istringstream lines(text);
+      std::smatch match;
+      for (std::string line; std::getline(lines, line);) {
+        if (std::regex_match(line, match, kBoundary)) {
+          EXPECT_LE(result.paving->boundary_volume, std::stod(match[1]));
+          ++checked;
+        } else if (std::regex_match(line, match, kInside)) {
+          EXPECT_GE(result.paving->inside_volume, std::stod(match[1]));
+          EXPECT_LE(result.paving->inside_volume, std::stod(match[2]));
+        }
+      }
+    }
+  }
+  EXPECT_GE(checked, 5U);
 }
 
 }  // namespace
