@@ -7,7 +7,7 @@ namespace hcsp::lang::minibex {
 
 namespace {
 
-constexpr std::uint64_t kStepsOfAConstraint = 30;  // it takes that much more memory than an expression
+constexpr std::uint64_t kStepsOfAConstraint = 100;  // it takes that much more memory than an expression
 
 }  // namespace
 

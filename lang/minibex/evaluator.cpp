@@ -19,7 +19,7 @@ namespace {
 // Loops in loops, and functions in functions, multiply: a file must not be able to fill the memory. What is
 // written out may be as long as it is.
 constexpr std::uint64_t kMostSteps = 5'000'000;
-constexpr std::uint64_t kStepsOfWritten = 20;
+constexpr std::uint64_t kStepsOfWritten = 40;
 constexpr std::uint32_t kDeepestEvaluation = 1000;
 
 }  // namespace
