@@ -195,7 +195,8 @@ class Paver {
       width = own;
     }
     if (width < 0.0) return false;
-    return cut_across(set_, box, widest, cut_at(box[widest]), next_) || cut(box, width);
+    return cut_across(set_, box, widest, cut_at(box[widest]), next_) ||
+           (width < kInfinity && cut(box, width));
   }
 
   PavedBoxes& found_ = findings.boxes;
@@ -209,17 +210,19 @@ class Paver {
 };
 
 // All that was found, in the order of the nodes that left it.
-PavedBoxes gathered(const std::vector<const Findings*>& parts) {
+PavedBoxes gathered(const std::vector<Findings*>& parts) {
   struct Left {
     const PavedBoxes* boxes;
     const Findings::Leaves* leaves;
   };
+  const auto comes_before = [](const Left& a, const Left& b) { return a.leaves->path < b.leaves->path; };
   std::vector<Left> all;
   for (const Findings* part : parts) {
     for (const Findings::Leaves& leaves : part->leaves) all.push_back({&part->boxes, &leaves});
   }
-  std::sort(all.begin(), all.end(),
-            [](const Left& a, const Left& b) { return a.leaves->path < b.leaves->path; });
+  if (parts.size() == 1 && std::is_sorted(all.begin(), all.end(), comes_before))
+    return std::move(parts.front()->boxes);
+  std::sort(all.begin(), all.end(), comes_before);
   PavedBoxes gathered;
   for (std::size_t kind = 0; kind < kKinds.size(); ++kind) {
     std::vector<Interval>& one_kind = gathered.*kKinds[kind];
@@ -268,7 +271,7 @@ class PavingSearch {
       tree_.run(std::move(roots));
     }
     PavingAnswer answer;
-    const std::vector<const Findings*> parts = all_findings();
+    const std::vector<Findings*> parts = all_findings();
     for (const Findings* part : parts) answer.cells += part->cells;
     answer.boxes = gathered(parts);
     for (const Paver::Node& node : tree_.open())
@@ -297,10 +300,10 @@ class PavingSearch {
     return {root};
   }
 
-  std::vector<const Findings*> all_findings() {
-    std::vector<const Findings*> parts;
-    for (const Findings& part : before_) parts.push_back(&part);
-    for (const Paver& paver : tree_.explorers()) parts.push_back(&paver.findings);
+  std::vector<Findings*> all_findings() {
+    std::vector<Findings*> parts;
+    for (Findings& part : before_) parts.push_back(&part);
+    for (Paver& paver : tree_.explorers()) parts.push_back(&paver.findings);
     return parts;
   }
 
