@@ -63,7 +63,8 @@ std::array<double, 2> extent_of(const Paving& paving, std::size_t coordinate) {
   for (const auto* boxes : {&paving.inside, &paving.boundary, &paving.unexplored}) add(shown, *boxes);
   Extent all = shown;
   add(all, paving.outside);
-  const std::array<double, 2> domain = all.range(0.0);
+  constexpr double kNone = 1e-9;  // of a flat one there is something to be seen
+  const std::array<double, 2> domain = all.range(kNone);
   if (shown.is_empty()) return domain;
   constexpr double kMargin = 0.15;
   const std::array<double, 2> around = shown.range(kMargin);
