@@ -178,9 +178,11 @@ class Paver {
   // Such that the last parts are as wide as they may be, and their number no accident of the domain's width.
   [[nodiscard]] double cut_at(const Interval& side) const {
     constexpr double kMostParts = 0x1p40, kForRounding = 1 + 0x1p-40;
-    const double width = side.hi() - side.lo(), parts = std::ceil(kForRounding * (width / precision_));
-    if (!(parts < kMostParts)) return cut_of(side);
-    return side.lo() + width * (std::floor(0.5 * parts) / parts);
+    const double width = side.hi() - side.lo(), least = kForRounding * (width / precision_);
+    if (!(least < kMostParts)) return cut_of(side);
+    const std::int64_t parts = static_cast<std::int64_t>(least) + 1;
+    if (parts % 2 == 0) return cut_of(side);
+    return side.lo() + width * (static_cast<double>(parts / 2) / static_cast<double>(parts));
   }
 
   // Across the widest of the sides that are to be cut and can be; narrower ones seldom have to be tried.
