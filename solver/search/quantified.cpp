@@ -13,8 +13,8 @@ namespace hcsp {
 namespace {
 
 // Parts that a box is worth: at the border of a set no number of them decides.
-constexpr std::size_t kMostParts = 600;
-constexpr int kMostProofs = 12;  // by Newton
+constexpr std::size_t kMostParts = 100;
+constexpr int kMostProofs = 4;  // by Newton
 
 class Quantified final : public Membership::Part {
  public:
