@@ -50,16 +50,25 @@ Rectangles drawn(const std::vector<Interval>& boxes, std::size_t dim, const Inte
   return flat;
 }
 
-// The finite bounds of a coordinate.
+// What is shown of a coordinate: the finite bounds of all that is not outside, and a little around it, within
+// the domain; all of the domain where all is outside.
 std::array<double, 2> extent_of(const Paving& paving, std::size_t coordinate) {
-  Extent extent;
-  for (const auto* boxes : {&paving.inside, &paving.boundary, &paving.unexplored, &paving.outside}) {
-    for (std::size_t i = coordinate; i < boxes->size(); i += paving.names.size()) {
-      extent.add((*boxes)[i].lo());
-      extent.add((*boxes)[i].hi());
+  const auto add = [&](Extent& extent, const std::vector<Interval>& boxes) {
+    for (std::size_t i = coordinate; i < boxes.size(); i += paving.names.size()) {
+      extent.add(boxes[i].lo());
+      extent.add(boxes[i].hi());
     }
-  }
-  return extent.range(0.0);
+  };
+  Extent shown;
+  for (const auto* boxes : {&paving.inside, &paving.boundary, &paving.unexplored}) add(shown, *boxes);
+  Extent all = shown;
+  add(all, paving.outside);
+  constexpr double kNone = 1e-9;  // of a flat one there is something to be seen
+  const std::array<double, 2> domain = all.range(kNone);
+  if (shown.is_empty()) return domain;
+  constexpr double kMargin = 0.15;
+  const std::array<double, 2> around = shown.range(kMargin);
+  return {std::max(around[0], domain[0]), std::min(around[1], domain[1])};
 }
 
 void put_layer(TextBuffer& out, const Plot& plot, const Rectangles& all, std::string_view color,

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "solver/search/existence.h"
 
+#include <Eigen/QR>
 #include <algorithm>
+#include <cmath>
 
 #include "solver/expression/connectives.h"
 #include "solver/expression/operators.h"
@@ -57,19 +59,19 @@ Existence::Existence(const PointSet& set, const std::vector<NodeId>& equations,
   }
 }
 
-bool Existence::holds(std::span<const Interval> box, Narrowing& narrowing) {
-  // Near the solutions at the middle of the box.
-  guess_.assign(box.begin(), box.end());
-  for (const std::uint32_t v : outer_) {
-    if (!guess_[v].is_bounded()) return false;
-    const double middle = middle_of(guess_[v]);
-    if (!set_.unknowns[v].is_whole) guess_[v] = Interval::raw(middle, middle);
+bool Existence::holds(std::span<const Interval> box) {
+  point_.assign(box.size(), Interval::raw(0.0, 0.0));
+  around_ = point_;
+  for (std::size_t v = 0; v < box.size(); ++v) {
+    if (!is_solved_for_[v]) continue;
+    if (!box[v].is_bounded()) return false;
+    const double middle = middle_of(box[v]);
+    point_[v] = Interval::raw(middle, middle);
+    around_[v] = box[v];
   }
-  if (!narrowing.contract(guess_)) return false;
-  around_.assign(box.begin(), box.end());
-  for (const std::uint32_t v : own_) around_[v] = guess_[v];
-  for (std::size_t v = 0; v < around_.size(); ++v) {
-    if (!is_solved_for_[v]) around_[v] = Interval::raw(0.0, 0.0);
+  if (!approach_solution()) return false;
+  for (const std::uint32_t v : own_) {
+    if (!set_.unknowns[v].is_whole) around_[v] = point_[v];
   }
   if (!newton_.prove_some(around_)) return false;
   around_ = newton_.enclosure();
@@ -79,14 +81,47 @@ bool Existence::holds(std::span<const Interval> box, Narrowing& narrowing) {
   // An own unknown that no equation depends on may have any value.
   for (const std::uint32_t v : own_) {
     if (is_solved_for_[v]) continue;
-    const double middle = cut_of(guess_[v]);
-    around_[v] = set_.unknowns[v].is_whole ? whole_numbers_of(Interval::raw(middle - 0.5, middle + 0.5))
-                                           : Interval::raw(middle, middle);
+    const double middle = set_.unknowns[v].is_whole ? std::floor(cut_of(box[v])) : cut_of(box[v]);
+    around_[v] = Interval::raw(middle, middle);
   }
   if (!lies_within(around_)) return false;
   Verdict verdict = Verdict::yes;
   if (rest_ != nullptr) rest_->decide(around_, {&verdict, 1});
   return verdict == Verdict::yes;
+}
+
+// Newton's iteration in plain numbers with the outer unknowns in the middle of their domains; where there are
+// more own unknowns than equations, by the least steps.
+bool Existence::approach_solution() {
+  constexpr int kMostSteps = 10;
+  constexpr double kNear = 1e-10;
+  const auto equations = static_cast<Eigen::Index>(forms_.size()),
+             size = static_cast<Eigen::Index>(own_.size());
+  Eigen::MatrixXd jacobian(equations, size);
+  Eigen::VectorXd value(equations);
+  for (int step = 0; step < kMostSteps; ++step) {
+    forms_.expand_over(point_);
+    forms_.evaluate_at_center();
+    for (std::uint32_t e = 0; e < forms_.size(); ++e) {
+      if (!forms_.has_form(e)) return false;
+      constexpr double kOnce = 1.0;
+      value[e] = middle_of(forms_.combine({&e, 1}, {&kOnce, 1}).value);
+      for (Eigen::Index k = 0; k < size; ++k) {
+        const std::uint32_t v = own_[static_cast<std::size_t>(k)];
+        jacobian(e, k) = set_.unknowns[v].is_whole ? 0.0 : middle_of(forms_.slopes(e)[v]);
+      }
+    }
+    const Eigen::VectorXd change = jacobian.completeOrthogonalDecomposition().solve(value);
+    if (!change.allFinite()) return false;
+    for (Eigen::Index k = 0; k < size; ++k) {
+      const std::uint32_t v = own_[static_cast<std::size_t>(k)];
+      const Interval& domain = set_.unknowns[v].domain;
+      const double moved = std::clamp(point_[v].lo() - change[k], domain.lo(), domain.hi());
+      if (!set_.unknowns[v].is_whole) point_[v] = Interval::raw(moved, moved);
+    }
+    if (change.norm() <= kNear) break;
+  }
+  return true;
 }
 
 bool Existence::lies_within(const std::vector<Interval>& enclosure) const {

@@ -23,12 +23,13 @@ class Existence {
   Existence& operator=(const Existence&) = delete;
 
   /// Whether, for every value of the outer unknowns in a box, the relation is proven to hold at some value of
-  /// the own ones, within their domains. `narrowing` contracts to the relation.
-  bool holds(std::span<const Interval> box, Narrowing& narrowing);
+  /// the own ones, within their domains: near those of the box first.
+  bool holds(std::span<const Interval> box);
 
  private:
   Existence(const PointSet& set, const std::vector<NodeId>& equations, std::unique_ptr<Membership::Part> rest,
             const std::vector<std::uint32_t>& outer, const std::vector<std::uint32_t>& own);
+  bool approach_solution();
   bool lies_within(const std::vector<Interval>& enclosure) const;
 
   const PointSet& set_;
@@ -38,7 +39,7 @@ class Existence {
   Newton newton_;
   std::unique_ptr<Membership::Part> rest_;
   std::vector<std::uint8_t> is_solved_for_;  // by unknown: an equation depends on it
-  std::vector<Interval> guess_, around_;
+  std::vector<Interval> point_, around_;
 };
 
 }  // namespace hcsp

@@ -149,16 +149,25 @@ class Maker {
         return chain(operands_of(dag, id, node.op), node.op);
       case Op::if_then_else:
         return std::make_unique<Choice>(operand(0), operand(1), operand(2));
-      case Op::equal:
-        return std::make_unique<Choice>(operand(0), operand(1), std::make_unique<Negation>(operand(1)));
-      case Op::not_equal:
-        return std::make_unique<Choice>(operand(0), std::make_unique<Negation>(operand(1)), operand(1));
       default:
-        return count(node, id);
+        return are_truths(node) ? equivalence(node) : count(node, id);
     }
   }
 
  private:
+  // Whether a node is `==` or `!=` of two relations.
+  [[nodiscard]] bool are_truths(const DagNode& node) const {
+    return (node.op == Op::equal || node.op == Op::not_equal) && is_boolean(set_.dag[node.operands[0]].op) &&
+           is_boolean(set_.dag[node.operands[1]].op);
+  }
+
+  std::unique_ptr<Part> equivalence(const DagNode& node) {
+    std::unique_ptr<Part> same = make(node.operands[1]);
+    std::unique_ptr<Part> other = std::make_unique<Negation>(make(node.operands[1]));
+    if (node.op == Op::not_equal) same.swap(other);
+    return std::make_unique<Choice>(make(node.operands[0]), std::move(same), std::move(other));
+  }
+
   // Those without quantifiers are one, which is asked first.
   std::unique_ptr<Part> chain(const std::vector<NodeId>& relations, Op connective) {
     Parts parts(1);

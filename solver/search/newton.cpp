@@ -143,7 +143,7 @@ bool Newton::prove_some(const std::vector<Interval>& box) {
   if (rows_.empty() || !is_bounded(box) || !expand_over(box) || !choose_square(box)) return false;
   double widest = 0.0;
   for (const Interval& side : box) widest = std::max(widest, width_of(side));
-  for (const double room : {0.1, 0.5, 2.0}) {
+  for (const double room : {0.1, 0.25, 0.5, 1.0, 2.0}) {
     reach_ = box;
     for (const std::uint32_t v : columns_) {
       if (system_.is_whole[v] == 0) reach_[v] = up::add(box[v], Interval::raw(-room * widest, room * widest));

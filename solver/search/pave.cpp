@@ -54,8 +54,12 @@ class Paver {
     std::string path;        // from the root: the order of nodes
     int rest = 0, vain = 0;  // how many cuts separators are not worth a try, and how often they gained little
   };
-  Paver(const PointSet& set, const SearchOptions& options, std::size_t batch)
-      : set_(set), precision_(options.precision), batch_(batch), membership_(set), separator_(set) {}
+  Paver(const PointSet& set, const SearchOptions& options)
+      : set_(set),
+        precision_(options.precision),
+        is_quantified_(has_quantifier(set.dag, set.relation)),
+        membership_(set),
+        separator_(set) {}
   Paver(const Paver&) = delete;
   Paver& operator=(const Paver&) = delete;
 
@@ -70,7 +74,9 @@ class Paver {
     }
     cut_boxes(node.boxes);
     findings.leaves.push_back({node.path, first_found, sizes()});
-    const std::size_t most = batch_ * set_.dim;
+    // Many at once are cheap where there is nothing but arithmetic to decide; else threads share them.
+    constexpr std::size_t kMany = 4 * Evaluation::kMaxLanes, kFew = 4;
+    const std::size_t most = (is_quantified_ ? kFew : kMany) * set_.dim;
     for (std::size_t first = 0; first < next_.size(); first += most) {
       Node& child = children.emplace_back();
       const std::size_t last = std::min(next_.size(), first + most);
@@ -106,10 +112,12 @@ class Paver {
     boxes.erase(left, boxes.end());
   }
 
-  // Where they gain little they are tried less and less often: to decide parts is cheaper.
+  // Where they gain little they are tried less and less often: to cut a box and decide its parts costs a
+  // twentieth of a contraction, unless there are quantifiers to decide.
   void separate(Node& node) {
-    constexpr double kMuch = 0.25;
+    constexpr double kMuch = 0x1p-5, kMuchBesideQuantifiers = 0.5;
     constexpr int kMostVain = 6;
+    const double much = is_quantified_ ? kMuchBesideQuantifiers : kMuch;
     const std::size_t dim = set_.dim;
     double share = 0.0;
     std::size_t left = 0;
@@ -122,7 +130,7 @@ class Paver {
       std::copy(box.begin(), box.end(), node.boxes.begin() + static_cast<std::ptrdiff_t>(left++ * dim));
     }
     node.boxes.resize(left * dim);
-    if (share <= kMuch * static_cast<double>(count)) {
+    if (share <= much * static_cast<double>(count)) {
       node.vain = 0;
     } else {
       node.vain = std::min(node.vain + 1, kMostVain);
@@ -169,53 +177,54 @@ class Paver {
 
   // Such that the last parts are as wide as they may be, and their number no accident of the domain's width.
   [[nodiscard]] double cut_at(const Interval& side) const {
-    constexpr double kMostParts = 0x1p40;
-    const double width = side.hi() - side.lo(), parts = std::ceil(width / precision_);
-    if (!(parts < kMostParts)) return cut_of(side);
-    return side.lo() + width * (std::floor(0.5 * parts) / parts);
+    constexpr double kMostParts = 0x1p40, kForRounding = 1 + 0x1p-40;
+    const double width = side.hi() - side.lo(), least = kForRounding * (width / precision_);
+    if (!(least < kMostParts)) return cut_of(side);
+    const std::int64_t parts = static_cast<std::int64_t>(least) + 1;
+    if (parts % 2 == 0) return cut_of(side);
+    return side.lo() + width * (static_cast<double>(parts / 2) / static_cast<double>(parts));
   }
 
-  bool cut(std::span<const Interval> box) {
-    tried_.assign(box.size(), 0);
-    for (;;) {
-      std::uint32_t widest = 0;
-      double width = -1.0;
-      for (std::uint32_t v = 0; v < box.size(); ++v) {
-        const double own = box[v].hi() - box[v].lo();
-        if (tried_[v] != 0 || own <= width || !(set_.unknowns[v].is_whole ? own > 0.0 : own > precision_))
-          continue;
-        widest = v;
-        width = own;
-      }
-      if (width < 0.0) return false;
-      if (cut_across(set_, box, widest, cut_at(box[widest]), next_)) return true;
-      tried_[widest] = 1;
+  // Across the widest of the sides that are to be cut and can be; narrower ones seldom have to be tried.
+  bool cut(std::span<const Interval> box, double below = kInfinity) {
+    std::uint32_t widest = 0;
+    double width = -1.0;
+    for (std::uint32_t v = 0; v < box.size(); ++v) {
+      const double own = box[v].hi() - box[v].lo();
+      const bool is_wide = own > (set_.unknowns[v].is_whole ? 0.0 : precision_);
+      if (!is_wide || own <= width || !(own < below || below == kInfinity)) continue;
+      widest = v;
+      width = own;
     }
+    if (width < 0.0) return false;
+    return cut_across(set_, box, widest, cut_at(box[widest]), next_) ||
+           (width < kInfinity && cut(box, width));
   }
 
   PavedBoxes& found_ = findings.boxes;
   const PointSet& set_;
   double precision_;
-  std::size_t batch_;
+  bool is_quantified_;
   Membership membership_;
   Separator separator_;
   std::vector<Verdict> verdicts_;
   std::vector<Interval> next_, before_, contracted_;
-  std::vector<std::uint8_t> tried_;
 };
 
 // All that was found, in the order of the nodes that left it.
-PavedBoxes gathered(const std::vector<const Findings*>& parts) {
+PavedBoxes gathered(const std::vector<Findings*>& parts) {
   struct Left {
     const PavedBoxes* boxes;
     const Findings::Leaves* leaves;
   };
+  const auto comes_before = [](const Left& a, const Left& b) { return a.leaves->path < b.leaves->path; };
   std::vector<Left> all;
   for (const Findings* part : parts) {
     for (const Findings::Leaves& leaves : part->leaves) all.push_back({&part->boxes, &leaves});
   }
-  std::sort(all.begin(), all.end(),
-            [](const Left& a, const Left& b) { return a.leaves->path < b.leaves->path; });
+  if (parts.size() == 1 && std::is_sorted(all.begin(), all.end(), comes_before))
+    return std::move(parts.front()->boxes);
+  std::sort(all.begin(), all.end(), comes_before);
   PavedBoxes gathered;
   for (std::size_t kind = 0; kind < kKinds.size(); ++kind) {
     std::vector<Interval>& one_kind = gathered.*kKinds[kind];
@@ -253,7 +262,7 @@ class PavingSearch {
   PavingSearch(const PointSet& set, const SearchOptions& options)
       : set_(set), options_(options), mark_(mark_of_set()), tree_(options, [this] {
           const std::lock_guard lock(making_);
-          return Paver(set_, options_, batch());
+          return Paver(set_, options_);
         }) {}
 
   PavingAnswer run() {
@@ -264,7 +273,7 @@ class PavingSearch {
       tree_.run(std::move(roots));
     }
     PavingAnswer answer;
-    const std::vector<const Findings*> parts = all_findings();
+    const std::vector<Findings*> parts = all_findings();
     for (const Findings* part : parts) answer.cells += part->cells;
     answer.boxes = gathered(parts);
     for (const Paver::Node& node : tree_.open())
@@ -273,12 +282,6 @@ class PavingSearch {
   }
 
  private:
-  // Many boxes at once are cheap where there is nothing but arithmetic to decide; else threads share them.
-  [[nodiscard]] std::size_t batch() const {
-    constexpr std::size_t kFewBoxes = 4;
-    return has_quantifier(set_.dag, set_.relation) ? kFewBoxes : Evaluation::kMaxLanes;
-  }
-
   [[nodiscard]] std::uint64_t mark_of_set() const {
     std::vector<Interval> domains;
     std::vector<std::uint8_t> is_whole;
@@ -299,10 +302,10 @@ class PavingSearch {
     return {root};
   }
 
-  std::vector<const Findings*> all_findings() {
-    std::vector<const Findings*> parts;
-    for (const Findings& part : before_) parts.push_back(&part);
-    for (const Paver& paver : tree_.explorers()) parts.push_back(&paver.findings);
+  std::vector<Findings*> all_findings() {
+    std::vector<Findings*> parts;
+    for (Findings& part : before_) parts.push_back(&part);
+    for (Paver& paver : tree_.explorers()) parts.push_back(&paver.findings);
     return parts;
   }
 

@@ -55,11 +55,12 @@ bool cut_across(const PointSet& set, std::span<const Interval> box, std::uint32_
   if (is_whole ? !(side.lo() <= cut && next <= side.hi() && cut < next)
                : !(side.lo() < cut && cut < side.hi()))
     return false;
-  const std::size_t first = parts.size();
-  parts.insert(parts.end(), box.begin(), box.end());
-  parts.insert(parts.end(), box.begin(), box.end());
-  parts[first + unknown] = Interval::raw(side.lo(), cut);
-  parts[first + box.size() + unknown] = Interval::raw(next, side.hi());
+  const std::size_t size = box.size(), first = parts.size();
+  parts.resize(first + 2 * size);
+  Interval *low = &parts[first], *high = low + size;
+  for (std::size_t v = 0; v < size; ++v) low[v] = high[v] = box[v];
+  low[unknown] = Interval::raw(side.lo(), cut);
+  high[unknown] = Interval::raw(next, side.hi());
   return true;
 }
 

@@ -13,7 +13,8 @@ namespace hcsp {
 namespace {
 
 // Parts that a box is worth: at the border of a set no number of them decides.
-constexpr std::size_t kMostParts = 600;
+constexpr std::size_t kMostParts = 100;
+constexpr int kMostProofs = 4;  // by Newton
 
 class Quantified final : public Membership::Part {
  public:
@@ -46,6 +47,7 @@ class Quantified final : public Membership::Part {
     const double finest = finest_share(box);
     bool is_open = false;
     std::size_t looked_at = 0;
+    proofs_left_ = kMostProofs;
     parts_.assign(box.begin(), box.end());
     while (!parts_.empty()) {
       if (is_settled_in(parts_)) return settles_;
@@ -102,8 +104,9 @@ class Quantified final : public Membership::Part {
 
   bool exists_in_some() {
     if (existence_ == nullptr) return false;
-    for (std::size_t first = 0; first < parts_.size(); first += set_.size()) {
-      if (existence_->holds({&parts_[first], set_.size()}, narrowing_)) return true;
+    for (std::size_t first = 0; first < parts_.size() && proofs_left_ > 0; first += set_.size()) {
+      --proofs_left_;
+      if (existence_->holds({&parts_[first], set_.size()})) return true;
     }
     return false;
   }
@@ -140,6 +143,7 @@ class Quantified final : public Membership::Part {
   std::unique_ptr<Existence> existence_;
   std::vector<Interval> parts_, next_, points_, narrowed_;
   std::vector<Verdict> verdicts_;
+  int proofs_left_ = 0;
 };
 
 }  // namespace

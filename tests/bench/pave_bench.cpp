@@ -83,8 +83,8 @@ int main(int argc, char** argv) {
         ->UseRealTime()
         ->Unit(benchmark::kMillisecond);
   };
-  add("ring", ring, 1e-3);
-  add("waves", waves, 0.01);
+  add("ring", ring, 7.5e-4);
+  add("waves", waves, 0.0098);
   add("decay", decay, 1e-3);
   add("projection", projection, 0.02);
   add("robust", robust, 0.02);

@@ -15,6 +15,7 @@ using namespace hcsp;
 void solve_all(benchmark::State& state, const std::string& path) {
   lang::Compilation compilation = lang::compile_file(path);
   if (!compilation.model) return state.SkipWithError(compilation.diagnostics.text().c_str());
+  if (compilation.model->goal != lang::SolveItem::Goal::all) return state.SkipWithError("no `solve all`");
   SearchOptions options;
   options.precision = compilation.model->precision;
   options.threads = static_cast<unsigned>(state.range(0));

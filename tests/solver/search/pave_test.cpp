@@ -269,6 +269,7 @@ TEST(Pave, QuantifiersWithinConnectives) {
   const Expr above = problem.for_some("p", Interval(0.0, 1.0),
                                       [&](Expr p) { return plane.y - p > Interval(0.0) && plane.x > p; });
   problem.constrain("c", !above && (plane.x > Interval(-1.0) || above));
+  problem.constrain("d", above == (plane.x > Interval(0.0) && plane.y > Interval(0.0)));  // always
   const Paving paving = plane.pave(0.1);
   expect_volume(paving, 36.0);
   EXPECT_GT(paving.inside_volume, 10.0);
