@@ -114,7 +114,9 @@ bool check_line(const Result& result, const std::string& line) {
   } else {
     return false;
   }
-  if (line != "// infeasible") EXPECT_EQ(result.status, Status::contracted) << line;
+  if (line != "// infeasible") {
+    EXPECT_EQ(result.status, Status::contracted) << line;
+  }
   return true;
 }
 
