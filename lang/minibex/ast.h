@@ -13,6 +13,9 @@
 
 namespace hcsp::lang::minibex {
 
+/// A text with more mistakes than this is no Minibex at all; nothing more is looked at.
+inline constexpr std::size_t kMostMistakes = 100;
+
 enum class Kind : std::uint8_t {
   number,     // text
   name,       // text

@@ -28,6 +28,7 @@ std::unique_ptr<Problem> Compiler::run() {
 }
 
 bool Compiler::is_new(const Name& name) {
+  if (diagnostics_.count() >= kMostMistakes) return false;
   if (declared_.insert(name.text).second) return true;
   diagnostics_.report(Code::declared_twice, name.range, name.text);
   return false;

@@ -25,7 +25,10 @@ void Compiler::goal() {
 // After a mistake the next statements are looked at too, but a loop ends: it would repeat the mistake.
 bool Compiler::state(const std::vector<Statement>& statements) {
   bool good = true;
-  for (const Statement& statement : statements) good = state(statement) && good;
+  for (const Statement& statement : statements) {
+    if (diagnostics_.count() >= kMostMistakes) return false;
+    good = state(statement) && good;
+  }
   return good;
 }
 

@@ -8,9 +8,6 @@ namespace hcsp::lang::minibex {
 
 namespace {
 
-/// A text with more mistakes than this is no Minibex at all.
-constexpr std::size_t kMostMistakes = 100;
-
 class Parser : public ExpressionParser {
  public:
   using ExpressionParser::ExpressionParser;

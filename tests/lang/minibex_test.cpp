@@ -352,6 +352,10 @@ TEST(Minibex, NothingMakesItHang) {
   for (int i = 1; i < 40; ++i)
     doubling += fmt::format("function f{0}(x) return f{1}(x) + f{1}(x + 1); end\n", i, i - 1);
   EXPECT_LT(seconds_of(doubling + "Variables x; Constraints f39(x) = 0; end", false), kSoon);
+  std::string unknown = "Variables x; Constraints\n";
+  for (int i = 0; i < 10'000; ++i) unknown += fmt::format("local{0} = x + {0};\n", i);
+  for (int i = 0; i < 10'000; ++i) unknown += fmt::format("x = nobody{};\n", i);
+  EXPECT_LT(seconds_of(unknown + "end", false), kSoon);
   EXPECT_LT(seconds_of("Variables x[1000000]; y[1000000]; Constraints x*y' = 0; end", false), kSoon);
   EXPECT_LT(seconds_of("Variables x[100000]; Constraints sum(i = 1:1000, x)(1) = 0; end", false), kSoon);
 }
