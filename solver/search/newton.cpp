@@ -153,6 +153,16 @@ bool Newton::prove_some(const std::vector<Interval>& box) {
   return false;
 }
 
+bool Newton::prove_in(const std::vector<Interval>& reach, std::span<const std::uint32_t> solved) {
+  if (solved.size() != forms_.size() || solved.size() != rows_.size()) return false;
+  std::iota(rows_.begin(), rows_.end(), 0U);
+  std::copy(solved.begin(), solved.end(), columns_.begin());
+  reach_ = reach;
+  if (step(reach_, image_) != Outcome::proven) return false;
+  polish();
+  return true;
+}
+
 bool Newton::is_one() const {
   const auto is_point = [](const Interval& x) { return x.is_point(); };
   const auto points = static_cast<std::size_t>(std::count_if(reach_.begin(), reach_.end(), is_point));

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <span>
 #include <vector>
 
 #include "solver/search/mean_value.h"
@@ -34,6 +35,11 @@ class Newton {
   /// Whether the equations have a solution near a box for every value of the parameters in it. Then
   /// enclosure() holds these solutions, and every one in the box. PRECONDITION: the thread rounds upward.
   bool prove_some(const std::vector<Interval>& box);
+
+  /// Whether, for every value that the other unknowns have in `reach`, all equations have exactly one solution
+  /// there in the unknowns that are to be solved for, as many as there are equations. Then it is in enclosure().
+  /// PRECONDITION: the thread rounds upward.
+  bool prove_in(const std::vector<Interval>& reach, std::span<const std::uint32_t> solved);
 
  private:
   Outcome step(const std::vector<Interval>& box, std::vector<Interval>& image);
