@@ -42,6 +42,7 @@ struct CompiledModel {
   SolveItem::Goal goal = SolveItem::Goal::propagate;
   std::optional<hcsp::Expr> objective;           ///< what `minimize` minimizes
   double precision = SearchOptions{}.precision;  ///< of the goals that have one
+  std::optional<hcsp::Expr> objective;           ///< of the goals minimize and maximize
   std::vector<std::string> shown;                ///< what the model asks to show, in its order
   /// From the first use of a data value to the finished Problem: part of what a result calls its seconds.
   double data_seconds = 0.0;

@@ -313,15 +313,18 @@ void Checker::check_constraint(const ConstraintItem& item) {
 
 void Checker::check_solve(const SolveItem& item, const SourceRange& range) {
   model_.goal = &item;
-  if (item.goal == SolveItem::Goal::all) {
+  if (is_optimisation(item.goal)) {
+    const Type objective = check(*item.arguments.front());
+    if (!objective.is_error()) require_scalar(*item.arguments.front(), objective);
+  }
+  if (item.goal == SolveItem::Goal::all || is_optimisation(item.goal)) {
     const Type precision = item.precision == nullptr ? Type{} : check(*item.precision);
     if (!precision.is_error() && require_scalar(*item.precision, precision))
       require_constant(*item.precision, precision);
     return;
   }
   if (item.goal == SolveItem::Goal::propagate && item.precision == nullptr) return;
-  constexpr std::string_view kGoals[] = {"a precision of `solve propagate`", "", "`solve pave`",
-                                         "`solve minimize`", "`solve maximize`"};
+  constexpr std::string_view kGoals[] = {"a precision of `solve propagate`", "", "`solve pave`"};
   not_supported(range, kGoals[static_cast<std::size_t>(item.goal)]);
 }
 

@@ -68,14 +68,22 @@ std::unique_ptr<Problem> Compiler::run() {
 }
 
 void Compiler::check_goal() {
-  if (model_.diagnostics().any() || model_.goal->goal != SolveItem::Goal::all) return;
+  const bool is_optimisation = lang::is_optimisation(model_.goal->goal);
+  if (model_.diagnostics().any() || !(is_optimisation || model_.goal->goal == SolveItem::Goal::all)) return;
   if (model_.goal->precision != nullptr) {
     if (const auto precision = precision_of(*model_.goal->precision)) model_.precision = *precision;
+  }
+  if (is_optimisation) {
+    const Value objective = evaluator_.value(*model_.goal->arguments.front());
+    if (objective.empty()) return;
+    model_.objective = Evaluator::expression(*problem_, objective.front());
   }
   if (problem_->is_system()) return;
   for (const Item& item : model_.tree().items) {
     if (std::holds_alternative<SolveItem>(item.content))
-      not_supported(item.range, "`solve all` of more than relations between numbers");
+      not_supported(item.range, is_optimisation
+                                    ? "optimisation over more than relations between numbers"
+                                    : "`solve all` of more than relations between numbers");
   }
 }
 

@@ -17,6 +17,7 @@
 #include "lang/model/built_in.h"
 #include "lang/model/type.h"
 #include "lang/syntax/ast.h"
+#include "solver/expression/expr.h"
 
 namespace hcsp::lang {
 
@@ -76,6 +77,7 @@ class Model {
   const Symbol* time = nullptr;
   const SolveItem* goal = nullptr;
   double precision = 0.0;  ///< of the goal; 0 where it states none. The compiler finds it.
+  std::optional<hcsp::Expr> objective;  ///< of the goal; the compiler finds it too
   /// The constant instants at which tubes are taken: x(0).
   std::vector<const Expr*> instants;
   std::deque<Table> tables;

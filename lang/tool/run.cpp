@@ -86,6 +86,12 @@ SearchOptions search_options(const Options& options, const lang::CompiledModel& 
   return search;
 }
 
+Result answer(const lang::CompiledModel& model, const SearchOptions& search) {
+  if (model.goal == lang::SolveItem::Goal::minimize) return model.problem->minimize(*model.objective, search);
+  if (model.goal == lang::SolveItem::Goal::maximize) return model.problem->maximize(*model.objective, search);
+  return model.problem->solve_all(search);
+}
+
 // Nothing, after a message, where there is no going on from the checkpoint.
 std::optional<Result> search(const Options& options, const lang::CompiledModel& model) {
   SearchProgress progress;
@@ -96,7 +102,7 @@ std::optional<Result> search(const Options& options, const lang::CompiledModel& 
     if (state) {
       search.resume = std::move(*state);
       const Watch watch(options.memory_limit, stop_asked, shows_progress(options) ? &progress : nullptr);
-      return model.problem->solve_all(search);
+      return answer(model, search);
     }
   } catch (const std::invalid_argument& refused) {
     error = refused.what();

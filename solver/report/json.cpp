@@ -193,6 +193,16 @@ void put_search(TextBuffer& out, NumberTexts& texts, const SolutionSet& search) 
   put(out, ",\n");
 }
 
+void put_objective(TextBuffer& out, const Interval& objective) {
+  put(out, "  \"objective\": ");
+  if (objective.is_empty()) return put(out, "null,\n");
+  put(out, R"({ "lo": )");
+  put_json_number(out, objective.lo());
+  put(out, R"(, "hi": )");
+  put_json_number(out, objective.hi());
+  put(out, " },\n");
+}
+
 void put_explanation(TextBuffer& out, NumberTexts& texts, const Explanation& why) {
   put(out, "  \"explanation\": {\n    \"constraint\": ");
   put_json_string(out, why.constraint);
@@ -272,6 +282,7 @@ std::string to_json(const Result& result) {
   put_variables(out, texts, result.variables);
   put(out, ",\n");
   if (result.search) put_search(out, texts, *result.search);
+  if (result.objective) put_objective(out, *result.objective);
   if (result.explanation) put_explanation(out, texts, *result.explanation);
   put_statistics(out, result);
   put(out, "}\n");

@@ -10,6 +10,7 @@
 #include "solver/search/incumbent.h"
 #include "solver/search/local_search.h"
 #include "solver/search/polytope_hull.h"
+#include "solver/search/stationary.h"
 #include "solver/search/tree_search.h"
 
 namespace hcsp {
@@ -34,7 +35,9 @@ class Bounder {
         objective_(problem),
         local_search_(problem),
         feasible_(problem.constraints),
-        run_(*problem.with_value.tape) {}
+        run_(*problem.with_value.tape) {
+    if (problem.gradient) stationary_ = std::make_unique<Stationary>(problem);
+  }
   Bounder(const Bounder&) = delete;
   Bounder& operator=(const Bounder&) = delete;
 
@@ -44,6 +47,7 @@ class Bounder {
     if (!limit(box)) return;
     if (is_close_enough(box)) return keep(box);
     if (!contract(box)) return;
+    if (stationary_ && (!stationary_->contract(box) || !hc4_.contract(box))) return;
     if (is_close_enough(box)) return keep(box);
     const std::optional<std::uint32_t> cut = choose_cut(box);
     if (!cut) return keep(box);
@@ -157,6 +161,7 @@ class Bounder {
   ObjectiveRun objective_;
   LocalSearch local_search_;
   FeasiblePoint feasible_;
+  std::unique_ptr<Stationary> stationary_;
   TapeRun run_;
   std::vector<double> smear_;
   std::vector<Interval> slopes_;

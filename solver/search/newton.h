@@ -36,6 +36,13 @@ class Newton {
   /// enclosure() holds these solutions, and every one in the box. PRECONDITION: the thread rounds upward.
   bool prove_some(const std::vector<Interval>& box);
 
+  // Of one Newton, either those above are called or one of those below.
+
+  /// One step on a box with some equations and as many unknowns; it may be proven, too: then the box has exactly one
+  /// solution of them for every value of the other unknowns. PRECONDITION: the thread rounds upward.
+  Outcome contract(std::vector<Interval>& box, std::span<const std::uint32_t> rows,
+                   std::span<const std::uint32_t> columns);
+
   /// Whether, for every value that the other unknowns have in `reach`, all equations have exactly one solution
   /// there in the unknowns that are to be solved for, as many as there are equations. Then it is in enclosure().
   /// PRECONDITION: the thread rounds upward.
