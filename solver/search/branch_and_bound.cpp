@@ -149,7 +149,8 @@ class Bounder {
 
   [[nodiscard]] bool is_worth_cutting(const Interval& side) const {
     constexpr double kFine = 1e-3;  // of the precision
-    return is_divisible(side) && width_of(side) > kFine * options_.precision * std::max(side.mag(), 1.0);
+    return is_divisible(side) && (!side.is_bounded() ||
+                                  width_of(side) > kFine * options_.precision * std::max(side.mag(), 1.0));
   }
 
   const Minimisation& problem_;

@@ -165,10 +165,9 @@ Newton::Outcome Newton::contract(std::vector<Interval>& box, std::span<const std
   return outcome;
 }
 
-bool Newton::prove_in(const std::vector<Interval>& reach, std::span<const std::uint32_t> solved) {
-  if (solved.size() != forms_.size()) return false;
-  rows_.resize(forms_.size());
-  std::iota(rows_.begin(), rows_.end(), 0U);
+bool Newton::prove_in(const std::vector<Interval>& reach, std::span<const std::uint32_t> rows,
+                      std::span<const std::uint32_t> solved) {
+  rows_.assign(rows.begin(), rows.end());
   columns_.assign(solved.begin(), solved.end());
   reach_ = reach;
   if (step(reach_, image_) != Outcome::proven) return false;

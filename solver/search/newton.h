@@ -43,10 +43,11 @@ class Newton {
   Outcome contract(std::vector<Interval>& box, std::span<const std::uint32_t> rows,
                    std::span<const std::uint32_t> columns);
 
-  /// Whether, for every value that the other unknowns have in `reach`, all equations have exactly one solution
-  /// there in the unknowns that are to be solved for, as many as there are equations. Then it is in enclosure().
-  /// PRECONDITION: the thread rounds upward.
-  bool prove_in(const std::vector<Interval>& reach, std::span<const std::uint32_t> solved);
+  /// Whether, for every value that the other unknowns have in `reach`, some equations have exactly one solution
+  /// there in as many unknowns that are to be solved for. Then it is in enclosure(). PRECONDITION: the thread rounds
+  /// upward.
+  bool prove_in(const std::vector<Interval>& reach, std::span<const std::uint32_t> rows,
+                std::span<const std::uint32_t> solved);
 
  private:
   Outcome step(const std::vector<Interval>& box, std::vector<Interval>& image);
