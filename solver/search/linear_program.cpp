@@ -53,9 +53,14 @@ void LinearProgram::load() {
       value[place] = row_terms_[k].factor;
     }
   }
-  const auto bounds = [](const std::vector<Interval>& sides, double (Interval::*bound)() const) {
+  // What is far out is as good as unbounded, to the simplex method.
+  constexpr double kFar = 1e15;
+  const auto bounds = [&](const std::vector<Interval>& sides, double (Interval::*bound)() const) {
     std::vector<double> result;
-    for (const Interval& side : sides) result.push_back((side.*bound)());
+    for (const Interval& side : sides) {
+      const double value = (side.*bound)();
+      result.push_back(std::abs(value) < kFar ? value : std::copysign(kInfinity, bound == &Interval::lo ? -1.0 : 1.0));
+    }
     return result;
   };
   objective_.assign(n, 0.0);

@@ -191,10 +191,25 @@ void Relaxation::state_curve(const Tape::Instruction& at, std::uint32_t argument
   fan(x.hi(), slope.hi(), slope.lo());
 }
 
+// In a scale that suits the simplex method, with the largest factor about 1; what is tiny beside it goes to the
+// rest.
 void Relaxation::require(const Sum& sum, const Interval& within) {
-  if (sum.terms.empty()) return;
-  const Interval left = up::sub(within, sum.rest);
-  if (!left.is_entire() && !left.is_empty()) rows_.push_back({sum.terms, left});
+  constexpr double kTiny = 1e-10, kMost = 1e15;
+  Interval left = up::sub(within, sum.rest);
+  double most = 0.0;
+  for (const LinearTerm& term : sum.terms) most = std::max(most, std::abs(term.factor));
+  if (!(most > 0.0) || !std::isfinite(most) || left.is_empty()) return;
+  const double scale = std::ldexp(1.0, -std::clamp(std::ilogb(most), -1000, 1000));
+  Row row;
+  for (const LinearTerm& term : sum.terms) {
+    if (std::abs(term.factor) * scale < kTiny) {
+      left = up::sub(left, up::mul(point(term.factor), columns_[term.column]));
+    } else {
+      row.terms.push_back({term.column, term.factor * scale});
+    }
+  }
+  row.within = up::mul(left, point(scale));
+  if (row.within.lo() > -kMost || row.within.hi() < kMost) rows_.push_back(std::move(row));
 }
 
 }  // namespace hcsp
