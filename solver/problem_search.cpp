@@ -25,7 +25,8 @@ struct SearchView {
       : problem(view) {
     for (const Input& input : inputs) {
       place_of.emplace(input.variable, unknowns.size());
-      unknowns.push_back({input, view.graph.initial<Interval>(input.variable), whole.contains(input.variable)});
+      unknowns.push_back(
+          {input, view.graph.initial<Interval>(input.variable), whole.contains(input.variable)});
     }
   }
 
@@ -114,7 +115,8 @@ Result Problem::minimize(Expr objective, const SearchOptions& options) {
   const MinimumAnswer answer = branch_and_bound(problem, options);
   std::vector<FoundBox> found;
   if (answer.best) found.push_back({*answer.best, Certificate::exists, Reason::proven});
-  for (const std::vector<Interval>& box : answer.boxes) found.push_back({box, Certificate::none, Reason::boundary});
+  for (const std::vector<Interval>& box : answer.boxes)
+    found.push_back({box, Certificate::none, Reason::boundary});
   Result result = result_of(view, found, answer.unexplored, answer.cells);
   result.objective = answer.minimum;
   tell_time(result, started, options);

@@ -117,8 +117,8 @@ struct Solution {
   std::vector<ResultVariable> variables;
 };
 
-/// Every solution is in one of these boxes; no two unique ones hold the same. Of an optimisation, every best one
-/// is, and the first box holds the best that is proven to exist, where there is one.
+/// Every solution is in one of these boxes; no two unique ones hold the same. Of an optimisation, every best
+/// one is, and the first box holds the best that is proven to exist, where there is one.
 struct SolutionSet {
   std::vector<Solution> solutions;                      ///< in the order of their lower bounds
   std::vector<std::vector<ResultVariable>> unexplored;  ///< boxes that a limit left
@@ -128,8 +128,8 @@ struct SolutionSet {
 struct Result {
   std::string model;
   Status status = Status::contracted;
-  std::vector<ResultVariable> variables;   ///< in the order of declaration, hidden ones left out
-  std::optional<SolutionSet> search;       ///< of a search for all solutions, or for those that are best
+  std::vector<ResultVariable> variables;  ///< in the order of declaration, hidden ones left out
+  std::optional<SolutionSet> search;      ///< of a search for all solutions, or for those that are best
   /// Of an optimisation: holds the infimum, or the supremum; empty where there is no solution.
   std::optional<Interval> objective;
   std::optional<Explanation> explanation;  ///< when infeasible

@@ -81,9 +81,8 @@ void Compiler::check_goal() {
   if (problem_->is_system()) return;
   for (const Item& item : model_.tree().items) {
     if (std::holds_alternative<SolveItem>(item.content))
-      not_supported(item.range, is_optimisation
-                                    ? "optimisation over more than relations between numbers"
-                                    : "`solve all` of more than relations between numbers");
+      not_supported(item.range, is_optimisation ? "optimisation over more than relations between numbers"
+                                                : "`solve all` of more than relations between numbers");
   }
 }
 

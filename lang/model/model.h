@@ -76,7 +76,7 @@ class Model {
   std::vector<const Symbol*> definitions;  ///< parameters and lets, each after those that it uses
   const Symbol* time = nullptr;
   const SolveItem* goal = nullptr;
-  double precision = 0.0;  ///< of the goal; 0 where it states none. The compiler finds it.
+  double precision = 0.0;               ///< of the goal; 0 where it states none. The compiler finds it.
   std::optional<hcsp::Expr> objective;  ///< of the goal; the compiler finds it too
   /// The constant instants at which tubes are taken: x(0).
   std::vector<const Expr*> instants;

@@ -42,6 +42,8 @@ std::string caption(const Result& result) {
   text += result.search
               ? fmt::format("{} boxes, {} cells", result.search->solutions.size(), result.search->cells)
               : fmt::format("{} passes", result.statistics.passes);
+  if (result.objective && !result.objective->is_empty())
+    text += fmt::format(", objective in {}", to_string(*result.objective));
   if (!result.explanation) return text;
   const Explanation& why = *result.explanation;
   text += fmt::format(": constraint {} leaves no value for {}", why.constraint, why.variable);

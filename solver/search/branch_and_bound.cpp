@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "solver/search/boxes.h"
+#include "solver/search/checkpoint.h"
 #include "solver/search/feasible_point.h"
 #include "solver/search/hc4.h"
 #include "solver/search/incumbent.h"
@@ -50,7 +51,11 @@ class Bounder {
     if (stationary_ && (!stationary_->contract(box) || !hc4_.contract(box))) return;
     if (is_close_enough(box)) return keep(box);
     const std::optional<std::uint32_t> cut = choose_cut(box);
-    if (!cut) return keep(box);
+    if (!cut) {
+      try_point(middle_of_point(box));
+      if (limit(box)) keep(box);
+      return;
+    }
     const double at = cut_of(box[*cut]);
     for (const Interval& half : {Interval::raw(box[*cut].lo(), at), Interval::raw(at, box[*cut].hi())}) {
       children.push_back({box, value_in(box).lo()});
@@ -93,11 +98,8 @@ class Bounder {
   // From where the relaxation is least, and from the middle; with a local search now and then.
   void look_for_point(const std::vector<Interval>& box) {
     std::vector<double> start = hull_.least_at();
-    const std::size_t n = problem_.constraints.size();
-    if (start.empty()) {
-      for (const Interval& side : box) start.push_back(side.mid());
-    }
-    start.resize(n);
+    if (start.empty()) start = middle_of_point(box);
+    start.resize(problem_.constraints.size());
     try_point(start);
     constexpr std::uint64_t kPeriod = 16;
     if (cells > kPeriod && cells % kPeriod != 0) return;
@@ -106,6 +108,12 @@ class Bounder {
       local_search_.improve(start, margin, kMostSteps);
       if (try_point(start)) return;
     }
+  }
+
+  [[nodiscard]] static std::vector<double> middle_of_point(const std::vector<Interval>& box) {
+    std::vector<double> middle;
+    for (std::size_t v = 0; v + 1 < box.size(); ++v) middle.push_back(box[v].mid());
+    return middle;
   }
 
   bool try_point(const std::vector<double>& point) {
@@ -149,8 +157,8 @@ class Bounder {
 
   [[nodiscard]] bool is_worth_cutting(const Interval& side) const {
     constexpr double kFine = 1e-3;  // of the precision
-    return is_divisible(side) && (!side.is_bounded() ||
-                                  width_of(side) > kFine * options_.precision * std::max(side.mag(), 1.0));
+    return is_divisible(side) &&
+           (!side.is_bounded() || width_of(side) > kFine * options_.precision * std::max(side.mag(), 1.0));
   }
 
   const Minimisation& problem_;
@@ -168,30 +176,125 @@ class Bounder {
   std::vector<Interval> slopes_;
 };
 
-bool touch(const std::vector<Interval>& a, const std::vector<Interval>& b) {
-  return std::equal(a.begin(), a.end(), b.begin(),
-                    [](const Interval& x, const Interval& y) { return !meet(x, y).is_empty(); });
+// Whether two boxes are no farther from each other, along each axis, than the larger of them is wide.
+bool are_near(const std::vector<Interval>& a, const std::vector<Interval>& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), [](const Interval& x, const Interval& y) {
+    const double gap = std::max(x.lo() - y.hi(), y.lo() - x.hi());
+    constexpr double kRounding = 1e-14;
+    return gap <= std::max({width_of(x), width_of(y), kRounding * x.mag()});
+  });
 }
 
-// Boxes that touch become the one box around them.
-std::vector<std::vector<Interval>> clustered(std::vector<std::vector<Interval>> boxes) {
+// Boxes near each other become the one box around them, until few are left.
+std::vector<std::vector<Interval>> clustered(const std::vector<std::vector<Interval>>& boxes) {
   std::vector<std::vector<Interval>> clusters;
-  for (std::vector<Interval>& box : boxes) {
-    for (auto other = clusters.begin(); other != clusters.end();) {
-      if (!touch(box, *other)) {
-        ++other;
+  for (std::vector<Interval> box : boxes) {
+    const auto around = [&](const std::vector<Interval>& other) {
+      std::transform(box.begin(), box.end(), other.begin(), box.begin(),
+                     [](const Interval& x, const Interval& y) { return join(x, y); });
+    };
+    for (std::size_t k = 0; k < clusters.size();) {
+      constexpr std::size_t kMost = 1000;
+      if (clusters.size() < kMost && !are_near(box, clusters[k])) {
+        ++k;
         continue;
       }
-      std::transform(box.begin(), box.end(), other->begin(), box.begin(),
-                     [](const Interval& x, const Interval& y) { return join(x, y); });
-      clusters.erase(other);
-      other = clusters.begin();
+      around(clusters[k]);
+      clusters[k] = std::move(clusters.back());
+      clusters.pop_back();
+      k = 0;
     }
     clusters.push_back(std::move(box));
   }
   std::sort(clusters.begin(), clusters.end(), comes_before);
   return clusters;
 }
+
+// The search, its state at rest, and its answer.
+class Minimiser {
+ public:
+  Minimiser(const Minimisation& problem, const SearchOptions& options)
+      : problem_(problem),
+        options_(options),
+        tree_(options_, [&] { return Bounder(problem_, options_, incumbent_); }) {}
+
+  MinimumAnswer run() {
+    const std::uint64_t mark = mark_of(problem_.with_value, "minimize", options_);
+    std::vector<Bounder::Node> roots;
+    if (options_.resume.empty()) {
+      roots.push_back({problem_.with_value.domains});
+    } else {
+      resume(opened(options_.resume, mark), roots);
+    }
+    std::function<void(const std::vector<Bounder::Node>&)> at_rest;
+    if (options_.checkpoint)
+      at_rest = [&](const auto& open) { options_.checkpoint(sealed(state(open), mark)); };
+    tree_.run(std::move(roots), at_rest);
+    return gather();
+  }
+
+ private:
+  nlohmann::json state(const std::vector<Bounder::Node>& open) {
+    auto boxes = nlohmann::json::array(), leaves = nlohmann::json::array();
+    for (const Bounder::Node& node : open) boxes.push_back(json_of(node.box));
+    for (const auto& leaf : leaves_before_) leaves.push_back(json_of(leaf));
+    std::uint64_t cells = cells_before_;
+    for (const Bounder& bounder : tree_.explorers()) {
+      cells += bounder.cells;
+      for (const auto& leaf : bounder.leaves) leaves.push_back(json_of(leaf));
+    }
+    std::vector<Interval> best = incumbent_.box();
+    if (!best.empty()) best.push_back(Interval::raw(incumbent_.value(), incumbent_.value()));
+    return {{"open", boxes}, {"leaves", leaves}, {"best", json_of(best)}, {"cells", cells}};
+  }
+
+  void resume(const nlohmann::json& state, std::vector<Bounder::Node>& open) {
+    cells_before_ = state.at("cells").get<std::uint64_t>();
+    for (const auto& leaf : state.at("leaves")) leaves_before_.push_back(box_of(leaf));
+    std::vector<Interval> best = box_of(state.at("best"));
+    if (!best.empty()) {
+      const double value = best.back().hi();
+      best.pop_back();
+      incumbent_.offer(value, best);
+    }
+    for (const auto& box : state.at("open")) {
+      open.push_back({box_of(box)});
+      open.back().priority = open.back().box.back().lo();
+    }
+  }
+
+  MinimumAnswer gather() {
+    MinimumAnswer answer;
+    const double best = incumbent_.value();
+    if (best < kInfinity) {
+      answer.best = incumbent_.box();
+      answer.minimum = Interval::raw(best, best);
+    }
+    const auto take = [&](std::vector<Interval> box, std::vector<std::vector<Interval>>& to) {
+      if (box.back().lo() > best) return;
+      answer.minimum = join(answer.minimum, Interval::raw(box.back().lo(), best));
+      box.pop_back();
+      to.push_back(std::move(box));
+    };
+    answer.cells = cells_before_;
+    for (const auto& leaf : leaves_before_) take(leaf, answer.boxes);
+    for (Bounder& bounder : tree_.explorers()) {
+      answer.cells += bounder.cells;
+      for (const auto& leaf : bounder.leaves) take(leaf, answer.boxes);
+    }
+    for (const Bounder::Node& node : tree_.open()) take(node.box, answer.unexplored);
+    answer.boxes = clustered(answer.boxes);
+    std::sort(answer.unexplored.begin(), answer.unexplored.end(), comes_before);
+    return answer;
+  }
+
+  const Minimisation& problem_;
+  const SearchOptions options_;
+  Incumbent incumbent_;
+  TreeSearch<Bounder> tree_;
+  std::vector<std::vector<Interval>> leaves_before_;  // those of the state that was resumed
+  std::uint64_t cells_before_ = 0;
+};
 
 }  // namespace
 
@@ -204,32 +307,9 @@ bool is_close(const Interval& minimum, double precision) {
 }
 
 MinimumAnswer branch_and_bound(const Minimisation& problem, const SearchOptions& options) {
-  Incumbent incumbent;
   SearchOptions ordered = options;
-  ordered.order = options.order.value_or(SearchOrder::best_first);
-  TreeSearch<Bounder> tree(ordered, [&] { return Bounder(problem, options, incumbent); });
-  tree.run({{problem.with_value.domains}});
-  MinimumAnswer answer;
-  const double best = incumbent.value();
-  if (best < kInfinity) {
-    answer.best = incumbent.box();
-    answer.minimum = Interval::raw(best, best);
-  }
-  const auto take = [&](std::vector<Interval> box, std::vector<std::vector<Interval>>& to) {
-    const Interval value = meet(box.back(), Interval::raw(-kInfinity, best));
-    if (value.is_empty()) return;
-    answer.minimum = join(answer.minimum, Interval::raw(value.lo(), best));
-    box.pop_back();
-    to.push_back(std::move(box));
-  };
-  for (Bounder& bounder : tree.explorers()) {
-    answer.cells += bounder.cells;
-    for (std::vector<Interval>& box : bounder.leaves) take(std::move(box), answer.boxes);
-  }
-  for (const Bounder::Node& node : tree.open()) take(node.box, answer.unexplored);
-  answer.boxes = clustered(std::move(answer.boxes));
-  std::sort(answer.unexplored.begin(), answer.unexplored.end(), comes_before);
-  return answer;
+  if (!ordered.order) ordered.order = SearchOrder::best_first;
+  return Minimiser(problem, ordered).run();
 }
 
 }  // namespace hcsp

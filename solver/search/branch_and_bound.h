@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Global optimisation: boxes are contracted, bounded from below and cut in two, best first, until no point that is
-// not proven to be worse than a point that is proven feasible could be much better.
+// Global optimisation: boxes are contracted, bounded from below and cut in two, best first, until no point
+// that is not proven to be worse than a point that is proven feasible could be much better.
 #pragma once
 
 #include <optional>
@@ -13,8 +13,8 @@
 namespace hcsp {
 
 struct MinimumAnswer {
-  /// Holds the infimum of the objective over the solutions. Its upper bound is the objective's at a point that is
-  /// proven to exist in `best`, oo without one; empty when there is no solution.
+  /// Holds the infimum of the objective over the solutions. Its upper bound is the objective's at a point
+  /// that is proven to exist in `best`, oo without one; empty when there is no solution.
   Interval minimum = Interval::empty();
   std::optional<std::vector<Interval>> best;
   std::vector<std::vector<Interval>> boxes;       ///< that hold, with those unexplored, every minimiser
@@ -22,11 +22,12 @@ struct MinimumAnswer {
   std::uint64_t cells = 0;                        ///< boxes that were looked at
 };
 
-/// Whether a bracket of the minimum is as narrow as asked for: the absolute or the relative gap at most `precision`.
+/// Whether a bracket of the minimum is as narrow as asked for: the absolute or the relative gap at most
+/// `precision`.
 bool is_close(const Interval& minimum, double precision);
 
-/// Ends when the bracket is close, when what is left cannot be cut any more, or at a limit; then the answer is still
-/// guaranteed. Answers of different numbers of threads overlap.
+/// Ends when the bracket is close, when what is left cannot be cut any more, or at a limit; then the answer
+/// is still guaranteed. Answers of different numbers of threads overlap.
 MinimumAnswer branch_and_bound(const Minimisation& problem, const SearchOptions& options);
 
 }  // namespace hcsp

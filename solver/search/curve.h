@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Operations of one operand as curves: their values, slopes and the way they bend, for lines that enclose them.
+// Operations of one operand as curves: their values, slopes and the way they bend, for lines that enclose
+// them.
 #pragma once
 
 #include <optional>

@@ -91,8 +91,8 @@ Eigen::MatrixXd FeasiblePoint::jacobian(const std::vector<double>& point) {
   return result;
 }
 
-// Newton's method towards the nearest point where the equations and the inequalities that were violated hold, in
-// floating point.
+// Newton's method towards the nearest point where the equations and the inequalities that were violated hold,
+// in floating point.
 bool FeasiblePoint::correct(std::vector<double>& point) {
   constexpr int kMostSteps = 15, kFirst = 4;
   double best = kInfinity;
@@ -118,7 +118,8 @@ bool FeasiblePoint::correct(std::vector<double>& point) {
   return evaluate(point);
 }
 
-// The unknowns that move the equations most within their room; an equation that nothing moves may be 0 as it is.
+// The unknowns that move the equations most within their room; an equation that nothing moves may be 0 as it
+// is.
 bool FeasiblePoint::choose_solved(const std::vector<double>& point) {
   solved_.clear();
   solved_by_.clear();
@@ -140,7 +141,8 @@ bool FeasiblePoint::choose_solved(const std::vector<double>& point) {
   if (static_cast<std::size_t>(qr.rank()) < rows_.size()) return false;
   for (std::size_t k = 0; k < rows_.size(); ++k) {
     solved_.push_back(static_cast<std::uint32_t>(qr.colsPermutation().indices()[at(k)]));
-    const auto number = std::find(equations_.begin(), equations_.end(), rows_[k].relation) - equations_.begin();
+    const auto number =
+        std::find(equations_.begin(), equations_.end(), rows_[k].relation) - equations_.begin();
     solved_by_.push_back(static_cast<std::uint32_t>(number));
   }
   return true;
@@ -168,7 +170,8 @@ bool FeasiblePoint::prove(const std::vector<double>& point) {
 // Every point of the box lies in the domains and satisfies all but equations.
 bool FeasiblePoint::holds() {
   for (std::size_t v = 0; v < box_.size(); ++v) {
-    const bool is_whole = system_.is_whole[v] == 0 || (box_[v].is_point() && std::round(box_[v].lo()) == box_[v].lo());
+    const bool is_whole =
+        system_.is_whole[v] == 0 || (box_[v].is_point() && std::round(box_[v].lo()) == box_[v].lo());
     if (!is_whole || !leq(box_[v], system_.domains[v])) return false;
   }
   run_.evaluate(box_, false);
@@ -177,7 +180,8 @@ bool FeasiblePoint::holds() {
     const System::Relation& relation = system_.relations[i];
     if (relation.is_equation()) {
       const auto number = static_cast<std::uint32_t>(equation++);
-      const bool is_proven = is_implied_[number] != 0 || std::count(solved_by_.begin(), solved_by_.end(), number) != 0;
+      const bool is_proven =
+          is_implied_[number] != 0 || std::count(solved_by_.begin(), solved_by_.end(), number) != 0;
       if (!is_proven && !(run_.value(i) == Interval::raw(0.0, 0.0))) return false;
       if (!run_.is_continuous(i)) return false;
       continue;

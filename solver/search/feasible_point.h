@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Points that are proven to satisfy a system: inequalities hold on all of a box, and where there are equations, they
-// are proven to have a solution in it, by Newton's method in as many unknowns as there are equations, the others
-// being fixed (Kearfott 1998, On proving existence of feasible points in equality constrained optimization
-// problems). Linear equations that the others imply, exactly, need no proof; nor does one that is 0 at every value
-// that the unknowns that are not fixed can have.
+// Points that are proven to satisfy a system: inequalities hold on all of a box, and where there are
+// equations, they are proven to have a solution in it, by Newton's method in as many unknowns as there are
+// equations, the others being fixed (Kearfott 1998, On proving existence of feasible points in equality
+// constrained optimization problems). Linear equations that the others imply, exactly, need no proof; nor
+// does one that is 0 at every value that the unknowns that are not fixed can have.
 #pragma once
 
 #include <vector>
@@ -47,11 +47,12 @@ class FeasiblePoint {
   std::vector<std::uint8_t> is_active_;   // by relation: an inequality that was violated
   std::vector<Row> rows_;
   std::vector<Interval> box_, reach_, slopes_;
-  std::vector<std::uint32_t> solved_, solved_by_;  // unknowns, and the numbers of the equations that they solve
+  std::vector<std::uint32_t> solved_,
+      solved_by_;  // unknowns, and the numbers of the equations that they solve
 };
 
-/// Which of a system's equations, by number among them, others imply: those that elimination of what is linear
-/// reduces to 0 = 0 without rounding. PRECONDITION: the thread rounds upward.
+/// Which of a system's equations, by number among them, others imply: those that elimination of what is
+/// linear reduces to 0 = 0 without rounding. PRECONDITION: the thread rounds upward.
 std::vector<std::uint8_t> implied_equations(const System& system);
 
 }  // namespace hcsp

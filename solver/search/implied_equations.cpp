@@ -57,13 +57,15 @@ std::size_t pivot_of(const std::vector<Interval>& entries, std::size_t unknowns)
 std::vector<std::uint8_t> implied_equations(const System& system) {
   const auto is_equation = [](const System::Relation& relation) { return relation.is_equation(); };
   std::vector<std::uint8_t> implied(
-      static_cast<std::size_t>(std::count_if(system.relations.begin(), system.relations.end(), is_equation)), 0);
+      static_cast<std::size_t>(std::count_if(system.relations.begin(), system.relations.end(), is_equation)),
+      0);
   std::vector<LinearRow> rows = linear_rows(system);
   for (std::size_t k = 0; k < rows.size(); ++k) {
     const std::vector<Interval> by = rows[k].entries;
     const std::size_t pivot = pivot_of(by, system.size());
     if (pivot == system.size()) {
-      implied[rows[k].number] = std::all_of(by.begin(), by.end(), [](const Interval& x) { return x == kZero; });
+      implied[rows[k].number] =
+          std::all_of(by.begin(), by.end(), [](const Interval& x) { return x == kZero; });
       continue;
     }
     for (std::size_t j = k + 1; j < rows.size(); ++j) {

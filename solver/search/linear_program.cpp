@@ -59,7 +59,8 @@ void LinearProgram::load() {
     std::vector<double> result;
     for (const Interval& side : sides) {
       const double value = (side.*bound)();
-      result.push_back(std::abs(value) < kFar ? value : std::copysign(kInfinity, bound == &Interval::lo ? -1.0 : 1.0));
+      result.push_back(
+          std::abs(value) < kFar ? value : std::copysign(kInfinity, bound == &Interval::lo ? -1.0 : 1.0));
     }
     return result;
   };
@@ -69,9 +70,9 @@ void LinearProgram::load() {
   constexpr int kNoPerturbation = 100;
   Clp_setPerturbation(clp(model_.get()), kNoPerturbation);
   Clp_loadProblem(clp(model_.get()), static_cast<int>(n), static_cast<int>(m), start.data(), index.data(),
-                  value.data(), bounds(columns_, &Interval::lo).data(), bounds(columns_, &Interval::hi).data(),
-                  objective_.data(), bounds(within_, &Interval::lo).data(),
-                  bounds(within_, &Interval::hi).data());
+                  value.data(), bounds(columns_, &Interval::lo).data(),
+                  bounds(columns_, &Interval::hi).data(), objective_.data(),
+                  bounds(within_, &Interval::lo).data(), bounds(within_, &Interval::hi).data());
   constexpr int kMostSteps = 20;  // a row or column
   Clp_setMaximumIterations(clp(model_.get()), kMostSteps * static_cast<int>(n + m));
 }

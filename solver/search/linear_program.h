@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Linear programs whose answers are proven. The simplex method (CLP) works in floating point, and is only asked
-// for multipliers: the rows, each times its multiplier, add up to one row that holds whatever the multipliers
-// are, and interval arithmetic contracts the columns by it. At the simplex method's dual solution that is the
-// safe bound of Neumaier and Shcherbina (Math. Program. 99, 2004); at a ray, their certificate of infeasibility.
+// Linear programs whose answers are proven. The simplex method (CLP) works in floating point, and is only
+// asked for multipliers: the rows, each times its multiplier, add up to one row that holds whatever the
+// multipliers are, and interval arithmetic contracts the columns by it. At the simplex method's dual solution
+// that is the safe bound of Neumaier and Shcherbina (Math. Program. 99, 2004); at a ray, their certificate of
+// infeasibility.
 #pragma once
 
 #include <memory>
@@ -29,14 +30,14 @@ class LinearProgram {
   [[nodiscard]] std::size_t rows() const { return within_.size(); }
   [[nodiscard]] std::span<const Interval> columns() const { return columns_; }
 
-  /// Looks for the least value of a sum, in floating point. The program stands after the first call: then only
-  /// objectives change. False where the simplex method gave up, or found no solution.
+  /// Looks for the least value of a sum, in floating point. The program stands after the first call: then
+  /// only objectives change. False where the simplex method gave up, or found no solution.
   bool solve(std::span<const LinearTerm> objective);
   /// After solve(): where the least value is.
   [[nodiscard]] std::span<const double> solution() const { return solution_; }
 
-  /// Looks for the least value of a column, or the greatest, and contracts the columns by what that shows; false
-  /// when no point of the columns satisfies the rows.
+  /// Looks for the least value of a column, or the greatest, and contracts the columns by what that shows;
+  /// false when no point of the columns satisfies the rows.
   bool contract(std::uint32_t column, bool from_below);
 
  private:

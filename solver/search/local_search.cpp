@@ -59,8 +59,9 @@ bool LocalSearch::step(const std::vector<double>& point, const Place& place, std
   for (std::size_t v = 0; v < n; ++v) {
     const Interval& domain = system.domains[v];
     const double scale =
-        system.is_whole[v] != 0 ? 0.0
-                                : std::min(std::max(1.0, std::abs(point[v])), domain.is_bounded() ? width_of(domain) : kInfinity);
+        system.is_whole[v] != 0
+            ? 0.0
+            : std::min(std::max(1.0, std::abs(point[v])), domain.is_bounded() ? width_of(domain) : kInfinity);
     columns.push_back(Interval::raw(std::max(-radius_ * scale, std::min(domain.lo() - point[v], 0.0)),
                                     std::min(radius_ * scale, std::max(domain.hi() - point[v], 0.0))));
   }

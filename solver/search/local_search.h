@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A local search in floating point for good points to prove feasible: sequential linear programming in a trust
-// region, with elastic rows for the constraints (Fletcher and Sainz de la Maza 1989).
+// A local search in floating point for good points to prove feasible: sequential linear programming in a
+// trust region, with elastic rows for the constraints (Fletcher and Sainz de la Maza 1989).
 #pragma once
 
 #include <vector>
@@ -14,8 +14,8 @@ class LocalSearch {
  public:
   explicit LocalSearch(const Minimisation& problem);
 
-  /// Moves a point in the domains towards a local minimum, with each inequality kept by a margin where that can
-  /// be, a part of its size; whole numbers stay as they are. PRECONDITION: the thread rounds upward.
+  /// Moves a point in the domains towards a local minimum, with each inequality kept by a margin where that
+  /// can be, a part of its size; whole numbers stay as they are. PRECONDITION: the thread rounds upward.
   void improve(std::vector<double>& point, double margin, int most_steps);
 
  private:
@@ -26,7 +26,8 @@ class LocalSearch {
   };
   bool evaluate(const std::vector<double>& point, Place& place);
   void expand(const std::vector<double>& point);
-  bool step(const std::vector<double>& point, const Place& place, std::vector<double>& next, double& promised);
+  bool step(const std::vector<double>& point, const Place& place, std::vector<double>& next,
+            double& promised);
 
   const Minimisation& problem_;
   TapeRun run_;

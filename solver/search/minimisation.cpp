@@ -11,7 +11,8 @@ namespace hcsp {
 
 namespace {
 
-std::vector<NodeId> with_objective(Dag& dag, NodeId objective, std::vector<NodeId> relations, const Input& value) {
+std::vector<NodeId> with_objective(Dag& dag, NodeId objective, std::vector<NodeId> relations,
+                                   const Input& value) {
   relations.insert(relations.begin(), dag.apply(Op::equal, {dag.input(value), objective}, 2));
   return relations;
 }

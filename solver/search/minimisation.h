@@ -19,8 +19,8 @@ struct Minimisation {
   System with_value;
   /// Whether the objective has slopes: then "value - objective == 0" is relation 0 of with_value.
   bool has_slopes;
-  /// "The objective's slope along an unknown is zero", of each unknown but whole numbers that it depends on; nothing
-  /// where it has none everywhere, or has kinks.
+  /// "The objective's slope along an unknown is zero", of each unknown but whole numbers that it depends on;
+  /// nothing where it has none everywhere, or has kinks.
   std::unique_ptr<const System> gradient;
   std::vector<std::uint32_t> gradient_unknowns;  ///< by relation of it
   Program objective;

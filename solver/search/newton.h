@@ -38,14 +38,15 @@ class Newton {
 
   // Of one Newton, either those above are called or one of those below.
 
-  /// One step on a box with some equations and as many unknowns; it may be proven, too: then the box has exactly one
-  /// solution of them for every value of the other unknowns. PRECONDITION: the thread rounds upward.
+  /// One step on a box with some equations and as many unknowns; it may be proven, too: then the box has
+  /// exactly one solution of them for every value of the other unknowns. PRECONDITION: the thread rounds
+  /// upward.
   Outcome contract(std::vector<Interval>& box, std::span<const std::uint32_t> rows,
                    std::span<const std::uint32_t> columns);
 
-  /// Whether, for every value that the other unknowns have in `reach`, some equations have exactly one solution
-  /// there in as many unknowns that are to be solved for. Then it is in enclosure(). PRECONDITION: the thread rounds
-  /// upward.
+  /// Whether, for every value that the other unknowns have in `reach`, some equations have exactly one
+  /// solution there in as many unknowns that are to be solved for. Then it is in enclosure(). PRECONDITION:
+  /// the thread rounds upward.
   bool prove_in(const std::vector<Interval>& reach, std::span<const std::uint32_t> rows,
                 std::span<const std::uint32_t> solved);
 

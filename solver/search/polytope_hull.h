@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The polytope hull: the box around the solutions of a system's linear relaxation over a box (relaxation.h), by a
-// linear program for each bound that may move.
+// The polytope hull: the box around the solutions of a system's linear relaxation over a box (relaxation.h),
+// by a linear program for each bound that may move.
 #pragma once
 
 #include <vector>
@@ -13,8 +13,8 @@ class PolytopeHull {
  public:
   explicit PolytopeHull(const System& system) : system_(system), relaxation_(system) {}
 
-  /// Contracts a box, all sides of it, or but the lower bound of one unknown and what that shows of the others;
-  /// false when it has no solution. PRECONDITION: the thread rounds upward.
+  /// Contracts a box, all sides of it, or but the lower bound of one unknown and what that shows of the
+  /// others; false when it has no solution. PRECONDITION: the thread rounds upward.
   bool contract(std::vector<Interval>& box);
   bool contract_below(std::vector<Interval>& box, std::uint32_t v);
   /// After contract_below(): where the relaxation is least, by unknown; empty where that is not known.
@@ -30,7 +30,8 @@ class PolytopeHull {
   Relaxation relaxation_;
   LinearProgram program_;
   std::vector<Interval> stated_;  // the unknowns' columns as they were stated
-  std::vector<std::uint8_t> reached_;  // by side: a solution of the relaxation lies there, so no program moves it
+  std::vector<std::uint8_t>
+      reached_;  // by side: a solution of the relaxation lies there, so no program moves it
   std::vector<double> least_at_;
 };
 

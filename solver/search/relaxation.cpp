@@ -191,8 +191,8 @@ void Relaxation::state_curve(const Tape::Instruction& at, std::uint32_t argument
   fan(x.hi(), slope.hi(), slope.lo());
 }
 
-// In a scale that suits the simplex method, with the largest factor about 1; what is tiny beside it goes to the
-// rest.
+// In a scale that suits the simplex method, with the largest factor about 1; what is tiny beside it goes to
+// the rest.
 void Relaxation::require(const Sum& sum, const Interval& within) {
   constexpr double kTiny = 1e-10, kMost = 1e15;
   Interval left = up::sub(within, sum.rest);

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// The relations of a system relaxed to linear ones over a box (McCormick 1976; Tawarmalani and Sahinidis 2004): a
-// column for each unknown and for each nonlinear operation, whose rows enclose its graph: products between their
-// four corner planes, functions of one operand between a secant and tangents. What is linear stays exact.
+// The relations of a system relaxed to linear ones over a box (McCormick 1976; Tawarmalani and Sahinidis
+// 2004): a column for each unknown and for each nonlinear operation, whose rows enclose its graph: products
+// between their four corner planes, functions of one operand between a secant and tangents. What is linear
+// stays exact.
 #pragma once
 
 #include <vector>
@@ -15,8 +16,9 @@ class Relaxation {
  public:
   explicit Relaxation(const System& system);
 
-  /// Contracts a box by HC4-revise of each relation once, then states rows that every solution in it satisfies;
-  /// the first columns are the unknowns. False when it has no solution. PRECONDITION: the thread rounds upward.
+  /// Contracts a box by HC4-revise of each relation once, then states rows that every solution in it
+  /// satisfies; the first columns are the unknowns. False when it has no solution. PRECONDITION: the thread
+  /// rounds upward.
   bool state(std::vector<Interval>& box, LinearProgram& program);
 
  private:
@@ -30,7 +32,8 @@ class Relaxation {
   Sum column_of(std::uint32_t reg);
   void state_instruction(const Tape::Instruction& at);
   void state_curve(const Tape::Instruction& at, std::uint32_t argument);
-  void state_product(const Sum& product, const Interval& a, const Sum& of_a, const Interval& b, const Sum& of_b);
+  void state_product(const Sum& product, const Interval& a, const Sum& of_a, const Interval& b,
+                     const Sum& of_b);
   void require(const Sum& sum, const Interval& within);
 
   const System& system_;

@@ -27,8 +27,8 @@ struct SearchProgress {
 };
 
 struct SearchOptions {
-  /// A box of which no side is wider is not cut any more; of the bracket of a minimum, the absolute or the relative
-  /// width, whichever is reached first.
+  /// A box of which no side is wider is not cut any more; of the bracket of a minimum, the absolute or the
+  /// relative width, whichever is reached first.
   double precision = 1e-3;
   std::optional<SearchOrder> order = {};  ///< where none is given: best first to minimise, else depth first
   Bisector bisector = Bisector::smear;
