@@ -18,6 +18,14 @@ namespace hcsp {
 
 namespace {
 
+// What the threads share.
+struct Shared {
+  Incumbent incumbent;
+  // Once the bracket is close: how many boxes may still be looked at to see closer where the minimisers are.
+  bool is_settling = false;
+  std::atomic<std::int64_t> budget = 0;
+};
+
 // The search is over boxes of the unknowns and of the objective's value, which is the last.
 class Bounder {
  public:
@@ -26,10 +34,10 @@ class Bounder {
     double priority = -kInfinity;  // the least value that the objective may have there
   };
 
-  Bounder(const Minimisation& problem, const SearchOptions& options, Incumbent& incumbent)
+  Bounder(const Minimisation& problem, const SearchOptions& options, Shared& shared)
       : problem_(problem),
         options_(options),
-        incumbent_(incumbent),
+        shared_(shared),
         hc4_(problem.with_value),
         choices_(problem.with_value),
         hull_(problem.with_value),
@@ -46,10 +54,10 @@ class Bounder {
     ++cells;
     std::vector<Interval>& box = node.box;
     if (!limit(box)) return;
-    if (is_close_enough(box)) return keep(box);
+    if (is_done(box)) return keep(box);
     if (!contract(box)) return;
     if (stationary_ && (!stationary_->contract(box) || !hc4_.contract(box))) return;
-    if (is_close_enough(box)) return keep(box);
+    if (is_done(box)) return keep(box);
     const std::optional<std::uint32_t> cut = choose_cut(box);
     if (!cut) {
       try_point(middle_of_point(box));
@@ -58,9 +66,17 @@ class Bounder {
     }
     const double at = cut_of(box[*cut]);
     for (const Interval& half : {Interval::raw(box[*cut].lo(), at), Interval::raw(at, box[*cut].hi())}) {
-      children.push_back({box, value_in(box).lo()});
+      children.push_back({box, priority_of(box)});
       children.back().box[*cut] = half;
     }
+  }
+
+  // The least lower bound first; of those that are close enough, the widest.
+  double priority_of(const std::vector<Interval>& box) const {
+    if (!shared_.is_settling) return box.back().lo();
+    double widest = 0.0;
+    for (std::size_t v = 0; v + 1 < box.size(); ++v) widest = std::max(widest, width_of(box[v]));
+    return -widest;
   }
 
   std::vector<std::vector<Interval>> leaves;
@@ -71,12 +87,20 @@ class Bounder {
 
   // What is worse than the incumbent is out.
   bool limit(std::vector<Interval>& box) {
-    value_in(box) = meet(value_in(box), Interval::raw(-kInfinity, incumbent_.value()));
+    value_in(box) = meet(value_in(box), Interval::raw(-kInfinity, shared_.incumbent.value()));
     return !value_in(box).is_empty();
   }
-  bool is_close_enough(std::vector<Interval>& box) {
-    const double best = incumbent_.value();
+  bool is_done(std::vector<Interval>& box) {
+    if (shared_.is_settling)
+      return shared_.budget.fetch_sub(1, std::memory_order_relaxed) <= 0 || is_narrow(box);
+    const double best = shared_.incumbent.value();
     return best < kInfinity && is_close(Interval::raw(value_in(box).lo(), best), options_.precision);
+  }
+  static bool is_narrow(const std::vector<Interval>& box) {
+    constexpr double kNarrow = 1e-6;
+    return std::all_of(box.begin(), box.end() - 1, [](const Interval& side) {
+      return width_of(side) <= kNarrow * std::max(side.mag(), 1.0);
+    });
   }
   void keep(const std::vector<Interval>& box) { leaves.push_back(box); }
 
@@ -87,7 +111,7 @@ class Bounder {
       if (!hull_.contract_below(box, problem_.value())) return false;
       if (round == 0) look_for_point(box);
       if (!limit(box)) return false;
-      if (is_close_enough(box)) return true;
+      if (!shared_.is_settling && is_done(box)) return true;
       const std::vector<Interval> before = box;
       if (!hull_.contract_sides(box) || !hc4_.contract(box) || !choices_.contract(box)) return false;
       if (!is_much_less(before, box)) return true;
@@ -118,7 +142,7 @@ class Bounder {
 
   bool try_point(const std::vector<double>& point) {
     if (!feasible_.find(point)) return false;
-    incumbent_.offer(objective_.on(feasible_.box()).hi(), feasible_.box());
+    shared_.incumbent.offer(objective_.on(feasible_.box()).hi(), feasible_.box());
     return true;
   }
 
@@ -163,7 +187,7 @@ class Bounder {
 
   const Minimisation& problem_;
   const SearchOptions& options_;
-  Incumbent& incumbent_;
+  Shared& shared_;
   Hc4 hc4_;
   Choices choices_;
   PolytopeHull hull_;
@@ -216,7 +240,7 @@ class Minimiser {
   Minimiser(const Minimisation& problem, const SearchOptions& options)
       : problem_(problem),
         options_(options),
-        tree_(options_, [&] { return Bounder(problem_, options_, incumbent_); }) {}
+        tree_(options_, [&] { return Bounder(problem_, options_, shared_); }) {}
 
   MinimumAnswer run() {
     const std::uint64_t mark = mark_of(problem_.with_value, "minimize", options_);
@@ -229,11 +253,34 @@ class Minimiser {
     std::function<void(const std::vector<Bounder::Node>&)> at_rest;
     if (options_.checkpoint)
       at_rest = [&](const auto& open) { options_.checkpoint(sealed(state(open), mark)); };
-    tree_.run(std::move(roots), at_rest);
+    if (tree_.run(std::move(roots), at_rest) && shared_.incumbent.value() < kInfinity) settle();
     return gather();
   }
 
  private:
+  // Boxes whose lower bounds are close enough may be wide: a part of the work so far goes into cutting them.
+  void settle() {
+    std::vector<Bounder::Node> wide;
+    std::uint64_t cells = 0;
+    shared_.is_settling = true;
+    const auto take = [&](const Bounder& bounder, std::vector<std::vector<Interval>>& leaves) {
+      for (std::vector<Interval>& leaf : leaves) {
+        const double priority = bounder.priority_of(leaf);
+        wide.push_back({std::move(leaf), priority});
+      }
+      leaves.clear();
+    };
+    for (Bounder& bounder : tree_.explorers()) {
+      cells += bounder.cells;
+      take(bounder, bounder.leaves);
+      if (&bounder == &*tree_.explorers().begin()) take(bounder, leaves_before_);
+    }
+    constexpr std::int64_t kLeast = 50, kPart = 4;
+    shared_.budget =
+        kLeast + static_cast<std::int64_t>(cells) / kPart + 2 * static_cast<std::int64_t>(wide.size());
+    tree_.run(std::move(wide));
+  }
+
   nlohmann::json state(const std::vector<Bounder::Node>& open) {
     auto boxes = nlohmann::json::array(), leaves = nlohmann::json::array();
     for (const Bounder::Node& node : open) boxes.push_back(json_of(node.box));
@@ -243,8 +290,8 @@ class Minimiser {
       cells += bounder.cells;
       for (const auto& leaf : bounder.leaves) leaves.push_back(json_of(leaf));
     }
-    std::vector<Interval> best = incumbent_.box();
-    if (!best.empty()) best.push_back(Interval::raw(incumbent_.value(), incumbent_.value()));
+    std::vector<Interval> best = shared_.incumbent.box();
+    if (!best.empty()) best.push_back(Interval::raw(shared_.incumbent.value(), shared_.incumbent.value()));
     return {{"open", boxes}, {"leaves", leaves}, {"best", json_of(best)}, {"cells", cells}};
   }
 
@@ -255,7 +302,7 @@ class Minimiser {
     if (!best.empty()) {
       const double value = best.back().hi();
       best.pop_back();
-      incumbent_.offer(value, best);
+      shared_.incumbent.offer(value, best);
     }
     for (const auto& box : state.at("open")) {
       open.push_back({box_of(box)});
@@ -265,9 +312,9 @@ class Minimiser {
 
   MinimumAnswer gather() {
     MinimumAnswer answer;
-    const double best = incumbent_.value();
+    const double best = shared_.incumbent.value();
     if (best < kInfinity) {
-      answer.best = incumbent_.box();
+      answer.best = shared_.incumbent.box();
       answer.minimum = Interval::raw(best, best);
     }
     const auto take = [&](std::vector<Interval> box, std::vector<std::vector<Interval>>& to) {
@@ -282,7 +329,9 @@ class Minimiser {
       answer.cells += bounder.cells;
       for (const auto& leaf : bounder.leaves) take(leaf, answer.boxes);
     }
-    for (const Bounder::Node& node : tree_.open()) take(node.box, answer.unexplored);
+    // What settling left is explored: it is as close as was asked for.
+    for (const Bounder::Node& node : tree_.open())
+      take(node.box, shared_.is_settling ? answer.boxes : answer.unexplored);
     answer.boxes = clustered(answer.boxes);
     std::sort(answer.unexplored.begin(), answer.unexplored.end(), comes_before);
     return answer;
@@ -290,7 +339,7 @@ class Minimiser {
 
   const Minimisation& problem_;
   const SearchOptions options_;
-  Incumbent incumbent_;
+  Shared shared_;
   TreeSearch<Bounder> tree_;
   std::vector<std::vector<Interval>> leaves_before_;  // those of the state that was resumed
   std::uint64_t cells_before_ = 0;
