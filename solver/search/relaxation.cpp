@@ -178,8 +178,9 @@ void Relaxation::state_curve(const Tape::Instruction& at, std::uint32_t argument
                                   up::sub(last, up::mul(point(d), point(x.hi()))));
     return line(d, is_convex ? at_most(at_zero.hi()) : at_least(at_zero.lo()));
   }
+  // Slopes say nothing across a pole.
   const Interval slope = curve.slope(x);
-  if (slope.is_empty()) return;
+  if (slope.is_empty() || !curve.value(x).is_bounded()) return;
   const auto fan = [&](double p, double below, double above) {
     if (!std::isfinite(p)) return;
     const Interval value = curve.value(point(p));
