@@ -7,6 +7,7 @@
 #include "solver/search/boxes.h"
 #include "solver/search/checkpoint.h"
 #include "solver/search/feasible_point.h"
+#include "solver/search/fritz_john.h"
 #include "solver/search/hc4.h"
 #include "solver/search/incumbent.h"
 #include "solver/search/local_search.h"
@@ -44,6 +45,7 @@ class Bounder {
         objective_(problem),
         local_search_(problem),
         feasible_(problem.constraints),
+        fritz_john_(problem),
         run_(*problem.with_value.tape) {
     if (problem.gradient) stationary_ = std::make_unique<Stationary>(problem);
   }
@@ -112,10 +114,22 @@ class Bounder {
       if (round == 0) look_for_point(box);
       if (!limit(box)) return false;
       if (!shared_.is_settling && is_done(box)) return true;
+      if (is_refuted_by_multipliers(box)) return false;
       const std::vector<Interval> before = box;
       if (!hull_.contract_sides(box) || !hc4_.contract(box) || !choices_.contract(box)) return false;
       if (!is_much_less(before, box)) return true;
     }
+    return true;
+  }
+
+  // Where that seldom tells anything, it is asked seldom.
+  bool is_refuted_by_multipliers(const std::vector<Interval>& box) {
+    constexpr std::uint64_t kFirst = 32, kLeastPart = 20, kSeldom = 8;
+    const bool pays = asked_ < kFirst || refuted_ * kLeastPart >= asked_;
+    if (!pays && cells % kSeldom != 0) return false;
+    ++asked_;
+    if (fritz_john_.may_hold_minimiser(box)) return false;
+    ++refuted_;
     return true;
   }
 
@@ -194,6 +208,8 @@ class Bounder {
   ObjectiveRun objective_;
   LocalSearch local_search_;
   FeasiblePoint feasible_;
+  FritzJohn fritz_john_;
+  std::uint64_t asked_ = 0, refuted_ = 0;  // of boxes: by multipliers
   std::unique_ptr<Stationary> stationary_;
   TapeRun run_;
   std::vector<double> smear_;

@@ -28,8 +28,8 @@ class Newton {
   [[nodiscard]] bool is_one() const;
   [[nodiscard]] const std::vector<Interval>& enclosure() const { return image_; }
 
-  /// Whether the equations, as many as unknowns, have exactly one solution near a box: reach() and enclosure()
-  /// are then as after contract(). PRECONDITION: the thread rounds upward.
+  /// Whether the equations, as many as unknowns, have exactly one solution near a box: reach() and
+  /// enclosure() are then as after contract(). PRECONDITION: the thread rounds upward.
   bool prove_alone(const std::vector<Interval>& box, double farthest);
 
   /// Whether the equations have a solution near a box for every value of the parameters in it. Then
