@@ -40,7 +40,6 @@ struct CompiledModel {
   std::string name;
   std::unique_ptr<Problem> problem;
   SolveItem::Goal goal = SolveItem::Goal::propagate;
-  std::optional<hcsp::Expr> objective;           ///< what `minimize` minimizes
   double precision = SearchOptions{}.precision;  ///< of the goals that have one
   std::optional<hcsp::Expr> objective;           ///< of the goals minimize and maximize
   std::vector<std::string> shown;                ///< what the model asks to show, in its order
