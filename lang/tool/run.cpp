@@ -74,6 +74,7 @@ SearchOptions search_options(const Options& options, const lang::CompiledModel& 
                              SearchProgress& progress) {
   SearchOptions search;
   search.precision = options.precision > 0 ? options.precision : model.precision;
+  if (options.precision == 0) search.absolute_precision = model.absolute_precision;
   search.order = options.order;
   search.bisector = options.bisector;
   search.threads = options.threads;
@@ -208,10 +209,6 @@ int run(const Options& options) {
   }
   if (!draw_graph(options, compilation.model->problem->graph())) return kWrongInput;
   if (options.check_only || !options.dump.empty()) return kFinished;
-  if (compilation.model->goal == lang::SolveItem::Goal::minimize) {
-    fmt::print(stderr, "hcsp-solve: {}: minimizing is not supported yet\n", options.model);
-    return kWrongInput;
-  }
   return solve_and_tell(options, *compilation.model);
 }
 

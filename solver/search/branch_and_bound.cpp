@@ -96,7 +96,7 @@ class Bounder {
     if (shared_.is_settling)
       return shared_.budget.fetch_sub(1, std::memory_order_relaxed) <= 0 || is_narrow(box);
     const double best = shared_.incumbent.value();
-    return best < kInfinity && is_close(Interval::raw(value_in(box).lo(), best), options_.precision);
+    return best < kInfinity && is_close(Interval::raw(value_in(box).lo(), best), options_);
   }
   static bool is_narrow(const std::vector<Interval>& box) {
     constexpr double kNarrow = 1e-6;
@@ -364,11 +364,12 @@ class Minimiser {
 }  // namespace
 
 // Against the lesser of the bounds' sizes: then a bracket within a close one is close.
-bool is_close(const Interval& minimum, double precision) {
+bool is_close(const Interval& minimum, const SearchOptions& options) {
   const double gap = minimum.hi() - minimum.lo();
   const bool one_sign = (minimum.lo() > 0) == (minimum.hi() > 0);
   const double size = one_sign ? std::min(std::abs(minimum.lo()), std::abs(minimum.hi())) : 0.0;
-  return gap <= precision || gap <= precision * size;
+  const double absolute = options.absolute_precision > 0 ? options.absolute_precision : options.precision;
+  return gap <= absolute || gap <= options.precision * size;
 }
 
 MinimumAnswer branch_and_bound(const Minimisation& problem, const SearchOptions& options) {

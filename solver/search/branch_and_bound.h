@@ -22,9 +22,8 @@ struct MinimumAnswer {
   std::uint64_t cells = 0;                        ///< boxes that were looked at
 };
 
-/// Whether a bracket of the minimum is as narrow as asked for: the absolute or the relative gap at most
-/// `precision`.
-bool is_close(const Interval& minimum, double precision);
+/// Whether a bracket of the minimum is as narrow as asked for, absolutely or relatively.
+bool is_close(const Interval& minimum, const SearchOptions& options);
 
 /// Ends when the bracket is close, when what is left cannot be cut any more, or at a limit; then the answer
 /// is still guaranteed. Answers of different numbers of threads overlap.

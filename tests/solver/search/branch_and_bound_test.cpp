@@ -185,7 +185,7 @@ TEST(BranchAndBound, NoFeasiblePointIsBelowTheBracket) {
       if (limit(at_x, at_y).hi() > 0.5) continue;
       ASSERT_LE(result.objective->lo(), objective(at_x, at_y).hi()) << k;
     }
-    ASSERT_TRUE(is_close(*result.objective, 1e-4)) << k << to_string(*result.objective);
+    ASSERT_TRUE(is_close(*result.objective, fine(1e-4))) << k << to_string(*result.objective);
   }
 }
 
@@ -252,11 +252,11 @@ TEST(BranchAndBound, RefusesWhatIsNoNumberOrNoSystem) {
 }
 
 TEST(BranchAndBound, AGapIsAbsoluteOrRelative) {
-  EXPECT_TRUE(is_close(Interval(0.0, 1e-3), 1e-3));
-  EXPECT_TRUE(is_close(Interval(1e6, 1e6 + 900.0), 1e-3));
-  EXPECT_TRUE(is_close(Interval(-1e6, -1e6 + 900.0), 1e-3));
-  EXPECT_FALSE(is_close(Interval(-1.0, 1e6), 1e-3));
-  EXPECT_FALSE(is_close(Interval::raw(-kInfinity, 1.0), 1e-3));
+  EXPECT_TRUE(is_close(Interval(0.0, 1e-3), fine(1e-3)));
+  EXPECT_TRUE(is_close(Interval(1e6, 1e6 + 900.0), fine(1e-3)));
+  EXPECT_TRUE(is_close(Interval(-1e6, -1e6 + 900.0), fine(1e-3)));
+  EXPECT_FALSE(is_close(Interval(-1.0, 1e6), fine(1e-3)));
+  EXPECT_FALSE(is_close(Interval::raw(-kInfinity, 1.0), fine(1e-3)));
 }
 
 }  // namespace
