@@ -194,9 +194,9 @@ class Bounder {
   }
 
   [[nodiscard]] bool is_worth_cutting(const Interval& side) const {
-    constexpr double kFine = 1e-3;  // of the precision
-    return is_divisible(side) &&
-           (!side.is_bounded() || width_of(side) > kFine * options_.precision * std::max(side.mag(), 1.0));
+    constexpr double kFine = 1e-3, kFinest = 1e-9;
+    const double fine = std::min(kFine * options_.precision, kFinest);
+    return is_divisible(side) && (!side.is_bounded() || width_of(side) > fine * std::max(side.mag(), 1.0));
   }
 
   const Minimisation& problem_;
