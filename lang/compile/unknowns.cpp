@@ -76,7 +76,7 @@ void Compiler::check_goal() {
   if (is_optimisation) {
     const Value objective = evaluator_.value(*model_.goal->arguments.front());
     if (objective.empty()) return;
-    model_.objective = Evaluator::expression(*problem_, objective.front());
+    model_.objective = expression_of(*problem_, objective.front());
   }
   if (problem_->is_system()) return;
   for (const Item& item : model_.tree().items) {
