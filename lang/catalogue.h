@@ -53,6 +53,8 @@ enum class Code : std::uint16_t {
   misplaced_precision = 124,
   misplaced_infinity = 125,
   not_shown = 126,
+  not_paved = 127,
+  paved_twice = 128,
 
   unreadable_data = 201,
   unknown_column = 202,

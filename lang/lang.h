@@ -43,6 +43,7 @@ struct CompiledModel {
   double precision = SearchOptions{}.precision;  ///< of the goals that have one
   double absolute_precision = 0.0;               ///< SearchOptions::absolute_precision
   std::optional<hcsp::Expr> objective;           ///< of the goals minimize and maximize
+  std::vector<hcsp::Expr> paved;                 ///< the coordinates of `solve pave`
   std::vector<std::string> shown;                ///< what the model asks to show, in its order
   /// From the first use of a data value to the finished Problem: part of what a result calls its seconds.
   double data_seconds = 0.0;

@@ -120,6 +120,11 @@ class Problem {
   Expr instant(std::string name);
   /// The identity tube t.
   Expr time();
+  /// "For every real of `domain`, relation(it)", and "for some real": relations. The real is one more
+  /// unknown, bound there. Paving decides them; propagation contracts by the weaker relation "for some", and
+  /// solve_all() does not take them.
+  Expr for_every(std::string name, const Interval& domain, const std::function<Expr(Expr)>& relation);
+  Expr for_some(std::string name, const Interval& domain, const std::function<Expr(Expr)>& relation);
   /// The bound point a of a set builder in R^dim.
   VectorExpr point(std::size_t dim);
 
@@ -188,6 +193,13 @@ class Problem {
   /// the expression is a number, and the precision is positive.
   Result minimize(Expr objective, const SearchOptions& options = {});
   Result maximize(Expr objective, const SearchOptions& options = {});
+  /// Whether all unknowns are such and all constraints relations, with quantifiers or without: what pave()
+  /// takes.
+  [[nodiscard]] bool is_region() const;
+  /// Encloses the set of values of some unknowns for which all constraints hold at some values of the others,
+  /// from inside and from outside. std::invalid_argument unless is_region(), the variables are different
+  /// unknowns and the precision is positive.
+  Result pave(const std::vector<Expr>& variables, const SearchOptions& options = {});
 
   [[nodiscard]] const std::string& name() const;
   [[nodiscard]] const ContractorGraph& graph() const;

@@ -14,6 +14,7 @@
 #include "solver/expression/operators.h"
 #include "solver/problem.h"
 #include "solver/problem_run.h"
+#include "solver/search/point_set.h"
 
 namespace hcsp {
 
@@ -52,6 +53,7 @@ struct Problem::Impl {
   std::set<std::string> hidden_names;
   std::vector<NodeId> relations;                  // those that hold whatever else does
   std::set<VariableId> whole;                     // the whole numbers and Booleans
+  std::set<VariableId> bound;                     // by quantifiers over reals
   bool is_system = true;                          // nothing but relations and whole numbers was stated
   std::shared_ptr<const ItemSet> window;          // the items at hand; null for all
   std::shared_ptr<InstantAtHand> each_instant{};  // of at_each_instant()
@@ -120,6 +122,17 @@ struct Problem::Impl {
     }
     return graph.part(std::move(contractors));
   }
+
+  // A relation with a real of its own, which nothing else may speak of.
+  Expr quantified(Op quantifier, const std::string& real, const Interval& domain,
+                  const std::function<Expr(Expr)>& relation) {
+    const VariableId own = add(free_name(real), domain, DomainKind::real, true);
+    bound.insert(own);
+    const Expr input_of = input(Input::Kind::real, own, 0);
+    const NodeId body = relation_of(relation(input_of));
+    return {dag, dag.apply(quantifier, {input_of.node(), body}, 2)};
+  }
+  PointSet point_set_of(const std::vector<Expr>& variables);
 
   [[nodiscard]] std::shared_ptr<const ItemSet> items_of(const Window& span) const {
     need_line();

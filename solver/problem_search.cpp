@@ -83,11 +83,7 @@ void tell_time(Result& result, double started, const SearchOptions& options) {
 
 }  // namespace
 
-bool Problem::is_system() const {
-  const bool all_reals = std::all_of(impl_->kinds.begin(), impl_->kinds.end(),
-                                     [](DomainKind kind) { return kind == DomainKind::real; });
-  return all_reals && impl_->is_system;
-}
+bool Problem::is_system() const { return is_region() && impl_->bound.empty(); }
 
 Result Problem::solve_all(const SearchOptions& options) {
   require(is_system(), "Problem: solve_all() is for relations between reals");

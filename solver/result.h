@@ -125,6 +125,18 @@ struct SolutionSet {
   std::uint64_t cells = 0;                              ///< boxes that were looked at
 };
 
+/// Boxes that cover the domain of some unknowns, the coordinates: flat, so many intervals a box.
+struct Paving {
+  std::vector<std::string> names;    ///< of the coordinates
+  std::vector<Interval> inside;      ///< every point is a solution, for some values of the other unknowns
+  std::vector<Interval> boundary;    ///< undecided, and as small as was asked for
+  std::vector<Interval> outside;     ///< no point is a solution
+  std::vector<Interval> unexplored;  ///< undecided when a limit stopped the search
+  double inside_volume = 0.0;        ///< a lower bound of the inside boxes' volume; a whole number counts 1
+  double boundary_volume = 0.0;      ///< an upper bound of that of the boundary and of what is unexplored
+  std::uint64_t cells = 0;           ///< boxes that were looked at
+};
+
 struct Result {
   std::string model;
   Status status = Status::contracted;
@@ -132,6 +144,7 @@ struct Result {
   std::optional<SolutionSet> search;      ///< of a search for all solutions, or for those that are best
   /// Of an optimisation: holds the infimum, or the supremum; empty where there is no solution.
   std::optional<Interval> objective;
+  std::optional<Paving> paving;            ///< of a search for the set of solutions
   std::optional<Explanation> explanation;  ///< when infeasible
   Statistics statistics;
   std::vector<PassSnapshot> snapshots;  ///< when asked for

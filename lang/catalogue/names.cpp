@@ -110,6 +110,17 @@ std::span<const CatalogueEntry> name_entries() {
       CatalogueEntry{Code::not_shown, "`{}` is no unknown of the model",
                      "`show` lists unknowns: var, given, and params that are intervals.",
                      "let a = 1;\nshow a;", "var a : real;\nshow a;"},
+      CatalogueEntry{
+          Code::not_paved, "`{}` is no unknown number or vector of the model",
+          "`solve pave` finds the set of values that some unknowns can have: reals, ints, vectors and "
+          "arrays of them, or elements. The other unknowns are parameters.",
+          "var x : real in [0, 1];\nconstraint x^2 < 0.5;\nsolve pave(2*x) precision 0.1;",
+          "var x : real in [0, 1];\nconstraint x^2 < 0.5;\nsolve pave(x) precision 0.1;"},
+      CatalogueEntry{
+          Code::paved_twice, "`{}` is paved already",
+          "Every component that `solve pave` names is a coordinate of the boxes; name each once.",
+          "var x : real[2] in [0, 1]^2;\nconstraint norm(x) < 1;\nsolve pave(x, x[1]) precision 0.1;",
+          "var x : real[2] in [0, 1]^2;\nconstraint norm(x) < 1;\nsolve pave(x) precision 0.1;"},
   };
   return kEntries;
 }

@@ -42,6 +42,8 @@ class Checker {
   void check_let(Symbol& symbol, const LetItem& item);
   void check_constraint(const ConstraintItem& item);
   void check_solve(const SolveItem& item, const SourceRange& range);
+  bool names_unknown(const Expr& expr) const;
+  void check_paved(const Expr& expr);
   void check_show(const ShowItem& item);
   Type resolve(const TypeExpr& type);
   std::optional<std::uint32_t> size_of(const Expr& size);
@@ -118,6 +120,8 @@ class Checker {
   Type check_distance(const Expr& expr);
   Type check_quantified(const Expr& expr, std::uint32_t dim);
   Type check_over_time(const Expr& expr);
+  Type check_over_reals(const Expr& expr);
+  [[nodiscard]] bool ranges_over_reals(const Expr& expr) const;
   Type check_union(const Expr& expr, std::uint32_t dim);
   // Bound whole numbers (ranges.cpp).
   Type check_range(const Expr& expr, const Type& a, const Type& b);

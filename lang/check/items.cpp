@@ -313,19 +313,35 @@ void Checker::check_constraint(const ConstraintItem& item) {
 
 void Checker::check_solve(const SolveItem& item, const SourceRange& range) {
   model_.goal = &item;
+  if (item.goal == SolveItem::Goal::propagate) {
+    if (item.precision != nullptr) not_supported(range, "a precision of `solve propagate`");
+    return;
+  }
+  if (item.goal == SolveItem::Goal::pave) {
+    for (const Expr* paved : item.arguments) check_paved(*paved);
+  }
   if (is_optimisation(item.goal)) {
     const Type objective = check(*item.arguments.front());
     if (!objective.is_error()) require_scalar(*item.arguments.front(), objective);
   }
-  if (item.goal == SolveItem::Goal::all || is_optimisation(item.goal)) {
-    const Type precision = item.precision == nullptr ? Type{} : check(*item.precision);
-    if (!precision.is_error() && require_scalar(*item.precision, precision))
-      require_constant(*item.precision, precision);
-    return;
-  }
-  if (item.goal == SolveItem::Goal::propagate && item.precision == nullptr) return;
-  constexpr std::string_view kGoals[] = {"a precision of `solve propagate`", "", "`solve pave`"};
-  not_supported(range, kGoals[static_cast<std::size_t>(item.goal)]);
+  const Type precision = item.precision == nullptr ? Type{} : check(*item.precision);
+  if (!precision.is_error() && require_scalar(*item.precision, precision))
+    require_constant(*item.precision, precision);
+}
+
+// Whether an expression names an unknown, or a part of one.
+bool Checker::names_unknown(const Expr& expr) const {
+  const Expr& named = expr.kind == ExprKind::index ? *expr.operands[0] : expr;
+  const Symbol* symbol = named.kind == ExprKind::name ? model_.reference(named).symbol : nullptr;
+  return symbol != nullptr &&
+         (symbol->as<VarItem>() != nullptr || symbol->as<GivenItem>() != nullptr || symbol->unknown);
+}
+
+void Checker::check_paved(const Expr& expr) {
+  const Type type = check(expr);
+  if (type.is_error()) return;
+  if (!names_unknown(expr) || !type.is(Type::Kind::real) || type.tube)
+    diagnostics().report(Code::not_paved, expr.range, expr.range.text().substr(0, 40));
 }
 
 void Checker::check_show(const ShowItem& item) {
@@ -335,10 +351,7 @@ void Checker::check_show(const ShowItem& item) {
       continue;
     }
     if (check_name(*shown).is_error()) continue;
-    const Symbol* symbol = model_.reference(*shown).symbol;
-    const bool unknown = symbol != nullptr && (symbol->as<VarItem>() != nullptr ||
-                                               symbol->as<GivenItem>() != nullptr || symbol->unknown);
-    if (!unknown) diagnostics().report(Code::not_shown, shown->range, shown->text);
+    if (!names_unknown(*shown)) diagnostics().report(Code::not_shown, shown->range, shown->text);
   }
 }
 

@@ -135,7 +135,7 @@ Type Checker::check_quantified(const Expr& expr, std::uint32_t dim) {
   switch (expr.quantifier) {
     case Quantifier::forall:
     case Quantifier::exists:
-      return check_over_time(expr);
+      return ranges_over_reals(expr) ? check_over_reals(expr) : check_over_time(expr);
     case Quantifier::minimum:
       return check_minimum(expr);
     default:
@@ -155,6 +155,38 @@ Type Checker::check_over_time(const Expr& expr) {
     return {};
   }
   model_.set_stated(expr);
+  return {Type::Kind::boolean, false, 0, Known::by_solving, nullptr};
+}
+
+bool Checker::ranges_over_reals(const Expr& expr) const {
+  return std::all_of(expr.bindings.begin(), expr.bindings.end(), [&](const Binding& bound) {
+    return bound.domain != nullptr && (model_.time == nullptr || bound.name.text != model_.time->name.text);
+  });
+}
+
+// forall(p in [a, b]) and exists(p in [a, b]).
+Type Checker::check_over_reals(const Expr& expr) {
+  const std::size_t outside = locals_.size();
+  bool good = true;
+  for (const Binding& bound : expr.bindings) {
+    const Type domain = check(*bound.domain);
+    if (!domain.is_error() && (!domain.is(Type::Kind::domain) || domain.tube || domain.is_array())) {
+      diagnostics().report(Code::wrong_type, bound.domain->range, "a domain `[a, b]`", describe(domain));
+      good = false;
+    }
+    good = good && !domain.is_error() && require_known(*bound.domain, domain);
+    const Type number{Type::Kind::real, false, domain.dim, Known::by_solving, nullptr};
+    model_.set_reference(*bound.domain, {nullptr, bind(bound.name.text, number), BuiltIn::none});
+  }
+  const Type body = good ? check(*expr.operands[0]) : Type{};
+  locals_.resize(outside);
+  if (body.is_error()) return {};
+  if (!body.is(Type::Kind::boolean) || body.is_array()) {
+    diagnostics().report(Code::wrong_type, expr.operands[0]->range, "a relation", describe(body));
+    return {};
+  }
+  if (body.tube || model_.is_stated(*expr.operands[0]))
+    return not_supported(expr.operands[0]->range, "this relation below a quantifier over reals");
   return {Type::Kind::boolean, false, 0, Known::by_solving, nullptr};
 }
 

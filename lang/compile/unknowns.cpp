@@ -68,21 +68,45 @@ std::unique_ptr<Problem> Compiler::run() {
 }
 
 void Compiler::check_goal() {
-  const bool is_optimisation = lang::is_optimisation(model_.goal->goal);
-  if (model_.diagnostics().any() || !(is_optimisation || model_.goal->goal == SolveItem::Goal::all)) return;
+  const SolveItem::Goal goal = model_.goal->goal;
+  if (model_.diagnostics().any() || goal == SolveItem::Goal::propagate) return;
+  const bool is_paving = goal == SolveItem::Goal::pave;
   if (model_.goal->precision != nullptr) {
     if (const auto precision = precision_of(*model_.goal->precision)) model_.precision = *precision;
   }
-  if (is_optimisation) {
-    const Value objective = evaluator_.value(*model_.goal->arguments.front());
-    if (objective.empty()) return;
-    model_.objective = expression_of(*problem_, objective.front());
-  }
-  if (problem_->is_system()) return;
+  if (is_paving) find_paved();
+  if (is_optimisation(goal)) find_objective();
+  if (is_paving ? problem_->is_region() : problem_->is_system()) return;
+  const std::string_view named = is_paving                      ? "`solve pave`"
+                                 : goal == SolveItem::Goal::all ? "`solve all`"
+                                                                : "optimisation";
+  const std::string_view of =
+      problem_->is_region() ? "with quantifiers over reals" : "of more than relations between numbers";
   for (const Item& item : model_.tree().items) {
     if (std::holds_alternative<SolveItem>(item.content))
-      not_supported(item.range, is_optimisation ? "optimisation over more than relations between numbers"
-                                                : "`solve all` of more than relations between numbers");
+      not_supported(item.range, fmt::format("{} {}", named, of));
+  }
+}
+
+void Compiler::find_objective() {
+  const Value objective = evaluator_.value(*model_.goal->arguments.front());
+  if (!objective.empty()) model_.objective = expression_of(*problem_, objective.front());
+}
+
+// The components of what is paved, in the order of the text.
+void Compiler::find_paved() {
+  for (const Expr* paved : model_.goal->arguments) {
+    for (const Term& term : evaluator_.value(*paved)) {
+      const auto& coordinate = std::get<hcsp::Expr>(term);
+      const bool is_new =
+          std::none_of(model_.paved.begin(), model_.paved.end(),
+                       [&](const hcsp::Expr& other) { return other.node() == coordinate.node(); });
+      if (!is_new) {
+        model_.diagnostics().report(Code::paved_twice, paved->range, paved->range.text().substr(0, 40));
+        break;
+      }
+      model_.paved.push_back(coordinate);
+    }
   }
 }
 

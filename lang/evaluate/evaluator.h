@@ -120,6 +120,7 @@ class Evaluator {
   Value part(const Expr& expr, std::size_t first, std::size_t count);
   std::optional<std::size_t> offset(const Expr& written, const Type& base);
   Value over_range(const Expr& expr);
+  Value over_reals(const Expr& expr);
   void bind_number(const Expr& range, int value);
   Value combined(const Expr& expr, const std::vector<Value>& values);
   Value comprehension(const Expr& expr);

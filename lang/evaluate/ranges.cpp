@@ -48,6 +48,46 @@ Value Evaluator::over_range(const Expr& expr) {
   return done ? combined(expr, values) : Value{};
 }
 
+// forall(p in [a, b]) and exists(p in [a, b]): the body once, with an unknown of its own for every component.
+Value Evaluator::over_reals(const Expr& expr) {
+  struct Component {
+    std::string name;
+    std::uint32_t local;
+    Interval domain;
+  };
+  std::vector<Component> components;
+  for (const Binding& bound : expr.bindings) {
+    const auto domain = box(*bound.domain);
+    if (!domain) return {};
+    const std::uint32_t local = model_.reference(*bound.domain).local;
+    bind(local, {});
+    for (Eigen::Index i = 0; i < domain->dim(); ++i) {
+      const std::string text(bound.name.text);
+      components.push_back(
+          {domain->dim() == 1 ? text : fmt::format("{}[{}]", text, i + 1), local, (*domain)[i]});
+    }
+  }
+  Value body;
+  const std::function<hcsp::Expr(std::size_t)> quantify = [&](std::size_t k) -> hcsp::Expr {
+    if (k == components.size()) {
+      body = value(*expr.operands[0]);
+      const auto known = body.empty() ? std::optional(false) : truth(body.front());
+      if (!known) return std::get<hcsp::Expr>(body.front());
+      return expression(boolean(*known)) == Interval(1.0);
+    }
+    const auto relation = [&](hcsp::Expr real) {
+      locals_[components[k].local].emplace_back(real);
+      return quantify(k + 1);
+    };
+    Problem& problem = unknowns_->problem;
+    const auto& [name, local, domain] = components[k];
+    return expr.quantifier == Quantifier::forall ? problem.for_every(name, domain, relation)
+                                                 : problem.for_some(name, domain, relation);
+  };
+  const hcsp::Expr relation = quantify(0);
+  return body.empty() ? Value{} : Value{relation};
+}
+
 // What a quantifier makes of the values of its body.
 Value Evaluator::combined(const Expr& expr, const std::vector<Value>& values) {
   const auto joined = [&](Operator op, bool neutral) {

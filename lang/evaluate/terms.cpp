@@ -129,6 +129,7 @@ Term power_of(const Term& base, const Term& exponent) {
   if (whole) return whole_power(base, *whole);
   if (number != nullptr && number_in(base) != nullptr)
     return Number::of(pow(number_in(base)->enclosure, number->enclosure));
+  if (number != nullptr && number->enclosure == Interval(0.5)) return scalar_function(BuiltIn::sqrt, base);
   const auto [u, v] = expressions(base, exponent);
   return pow(u, v);
 }

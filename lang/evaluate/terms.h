@@ -29,7 +29,8 @@ Term scalar_function(BuiltIn function, const Term& a);
 Term scalar_function(BuiltIn function, const Term& a, const Term& b);
 /// The real root of a degree of at least 1.
 Term root_of(const Term& a, int degree);
-/// A whole exponent, by its value, is one of repeated products; any other is exp(exponent*log(base)).
+/// A whole exponent, by its value, is one of repeated products, a half that of the root; any other is
+/// exp(exponent*log(base)).
 Term power_of(const Term& base, const Term& exponent);
 Term sum_of(const Value& terms);      ///< of one term at least
 Term product_of(const Value& terms);  ///< 1 of none

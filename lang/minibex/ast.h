@@ -35,7 +35,7 @@ struct Expr {
   Operator op = Operator::add;
   bool brackets = false;  ///< of apply: x[0], which counts from 0; x(1) counts from 1
   SourceRange range;
-  SourceRange token;  ///< the operator
+  SourceRange token;  ///< the operator, the name of sum and product
   std::string_view text;
   std::vector<const Expr*> operands;
 };

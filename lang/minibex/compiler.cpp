@@ -79,14 +79,13 @@ void Compiler::constant(const Declaration& declaration) {
   }
   binding.interval = std::move(value);
   Tensor unknown = evaluator_.value(*declaration.value);
-  if (known.is_scalar()) {
+  while (!unknown.failed() && unknown.terms.size() < shape->first * shape->second) {
     // One interval for all components: an unknown each.
-    unknown.rows = shape->first;
-    unknown.columns = shape->second;
-    while (unknown.terms.size() < unknown.rows * unknown.columns)
-      unknown.terms.push_back(evaluator_.value(*declaration.value).terms.front());
+    const Tensor another = evaluator_.value(*declaration.value);
+    if (another.failed()) return;
+    unknown.terms.push_back(another.terms.front());
   }
-  binding.value = std::move(unknown);
+  if (!unknown.failed()) binding.value = {shape->first, shape->second, std::move(unknown.terms)};
 }
 
 // ---- Variables.
@@ -166,7 +165,7 @@ void Compiler::number_components() {
 bool Compiler::find_whole(const std::vector<Statement>& statements) {
   return std::all_of(statements.begin(), statements.end(), [&](const Statement& statement) {
     if (const auto* loop = std::get_if<Loop>(&statement.content)) {
-      return !has_integrality(*loop) || evaluator_.for_each(*loop->first, *loop->last, loop->iterator.text,
+      return !has_integrality(*loop) || evaluator_.for_each(*loop->first, *loop->last, loop->iterator,
                                                             [&] { return find_whole(loop->body); });
     }
     const auto* integrality = std::get_if<Integrality>(&statement.content);

@@ -7,7 +7,7 @@ namespace hcsp::lang::minibex {
 
 namespace {
 
-constexpr std::uint64_t kStepsOfAConstraint = 30;  // it takes that much more memory than an expression
+constexpr std::uint64_t kStepsOfAConstraint = 100;  // it takes that much more memory than an expression
 
 }  // namespace
 
@@ -31,8 +31,7 @@ bool Compiler::state(const std::vector<Statement>& statements) {
 
 bool Compiler::state(const Statement& statement) {
   if (const auto* loop = std::get_if<Loop>(&statement.content)) {
-    return evaluator_.for_each(*loop->first, *loop->last, loop->iterator.text,
-                               [&] { return state(loop->body); });
+    return evaluator_.for_each(*loop->first, *loop->last, loop->iterator, [&] { return state(loop->body); });
   }
   if (const auto* integrality = std::get_if<Integrality>(&statement.content))
     return state_whole(statement, *integrality->argument);

@@ -19,7 +19,7 @@ namespace {
 // Loops in loops, and functions in functions, multiply: a file must not be able to fill the memory. What is
 // written out may be as long as it is.
 constexpr std::uint64_t kMostSteps = 5'000'000;
-constexpr std::uint64_t kStepsOfWritten = 20;
+constexpr std::uint64_t kStepsOfWritten = 40;
 constexpr std::uint32_t kDeepestEvaluation = 1000;
 
 }  // namespace
@@ -186,6 +186,12 @@ Tensor Evaluator::as_wanted(const Expr& expr, Tensor tensor) {
   return {};
 }
 
+bool Evaluator::is_new(const Name& name) {
+  if (scope_->find(name.text) == nullptr) return true;
+  diagnostics_.report(Code::declared_twice, name.range, name.text);
+  return false;
+}
+
 void Evaluator::unknown_name(const Expr& name, Code code) {
   std::vector<std::string> candidates;
   for (const Scope* scope = scope_; scope != nullptr; scope = scope->around) {
@@ -254,7 +260,7 @@ Tensor Evaluator::defined(const Expr& expr, Tensor tensor) {
 Tensor Evaluator::over_range(const Expr& expr) {
   const Operator op = expr.kind == Kind::sum ? Operator::add : Operator::multiply;
   std::optional<Tensor> total;
-  const bool good = for_each(*expr.operands[0], *expr.operands[1], expr.text, [&] {
+  const bool good = for_each(*expr.operands[0], *expr.operands[1], {expr.text, expr.token}, [&] {
     Tensor term = value(*expr.operands[2]);
     if (term.failed()) return false;
     total = total ? combine(op, *total, term) : std::move(term);

@@ -57,10 +57,11 @@ class Evaluator {
   std::optional<std::pair<std::size_t, std::size_t>> shape(const Declaration& declaration);
   /// Whether so many steps are left; the first time that they are not is reported.
   bool take_steps(const Expr& expr, std::uint64_t count);
-  /// Runs body(), with a name bound to each whole number of first:last, in a scope of its own, until it gives
-  /// false; false then and after a report.
+  /// Runs body(), with a new name bound to each whole number of first:last, in a scope of its own, until it
+  /// gives false; false then and after a report.
   template <class Body>
-  bool for_each(const Expr& first, const Expr& last, std::string_view name, Body body) {
+  bool for_each(const Expr& first, const Expr& last, const Name& name, Body body) {
+    if (!is_new(name)) return false;
     const auto begin = whole(first);
     const auto end = begin ? whole(last) : std::nullopt;
     if (!end) return false;
@@ -68,7 +69,7 @@ class Evaluator {
     bool good = true;
     for (std::int64_t i = *begin; good && i <= *end; ++i) {
       Scope inner{outer};
-      inner.names.emplace(name, Binding{counted(static_cast<int>(i)), {}});
+      inner.names.emplace(name.text, Binding{counted(static_cast<int>(i)), {}});
       scope_ = &inner;
       good = take_steps(first, 1) && body();
       scope_ = outer;
@@ -86,7 +87,6 @@ class Evaluator {
   [[nodiscard]] Scope& scope() { return *scope_; }
   /// The constants: all that a function sees besides its arguments.
   [[nodiscard]] Scope& constants() { return constants_; }
-  [[nodiscard]] bool is_function(std::string_view name) const { return functions_.contains(name); }
   static Tensor counted(int value);
 
  private:
@@ -117,6 +117,7 @@ class Evaluator {
   Term sinc(const Term& x);
   bool require_arguments(const Expr& expr, std::size_t fewest, std::size_t most, std::string_view what);
 
+  bool is_new(const Name& name);
   void unknown_name(const Expr& name, Code code);
   Tensor defined(const Expr& expr, Tensor tensor);
   Tensor as_wanted(const Expr& expr, Tensor tensor);

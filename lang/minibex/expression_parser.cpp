@@ -327,6 +327,7 @@ const Expr* ExpressionParser::over_range(Kind kind) {
   --depth_;
   Expr& found = make(kind, since(word));
   found.text = iterator.text;
+  found.token = iterator.range;
   found.operands = {first, last, body};
   return &found;
 }

@@ -78,6 +78,7 @@ class Model {
   const SolveItem* goal = nullptr;
   double precision = 0.0;               ///< of the goal; 0 where it states none. The compiler finds it.
   std::optional<hcsp::Expr> objective;  ///< of the goal; the compiler finds it too
+  std::vector<hcsp::Expr> paved;        ///< of `solve pave`: the coordinates. The compiler finds them.
   /// The constant instants at which tubes are taken: x(0).
   std::vector<const Expr*> instants;
   std::deque<Table> tables;

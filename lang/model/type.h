@@ -38,10 +38,10 @@ struct Type {
   bool tube = false;      ///< varies with t
   std::uint32_t dim = 0;  ///< the number of components, or of rows; 0 for a scalar
   Known known = Known::by_solving;
-  const Symbol* data = nullptr;  ///< the table that a column belongs to
-  std::uint32_t columns = 0;     ///< of a matrix
-  bool whole = false;            ///< a whole number
-  std::vector<Extent> arrays = {};    ///< the index ranges of an array of these, outermost first
+  const Symbol* data = nullptr;     ///< the table that a column belongs to
+  std::uint32_t columns = 0;        ///< of a matrix
+  bool whole = false;               ///< a whole number
+  std::vector<Extent> arrays = {};  ///< the index ranges of an array of these, outermost first
 
   [[nodiscard]] bool is_error() const { return kind == Kind::error; }
   [[nodiscard]] bool is(Kind k) const { return kind == k; }

@@ -90,6 +90,7 @@ SearchOptions search_options(const Options& options, const lang::CompiledModel& 
 Result answer(const lang::CompiledModel& model, const SearchOptions& search) {
   if (model.goal == lang::SolveItem::Goal::minimize) return model.problem->minimize(*model.objective, search);
   if (model.goal == lang::SolveItem::Goal::maximize) return model.problem->maximize(*model.objective, search);
+  if (model.goal == lang::SolveItem::Goal::pave) return model.problem->pave(model.paved, search);
   return model.problem->solve_all(search);
 }
 

@@ -2,6 +2,7 @@
 #include "lang/tool/summary.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -157,6 +158,21 @@ std::string summary_of_search(const Result& result, const std::vector<std::strin
   return text;
 }
 
+std::string summary_of_paving(const Result& result, const std::vector<std::string>& shown) {
+  const Paving& paving = *result.paving;
+  const auto count = [&](const std::vector<Interval>& boxes) { return boxes.size() / paving.names.size(); };
+  std::string text = fmt::format("{}: {} in {:.4g} s, {} cell{}\n", result.model, to_string(result.status),
+                                 result.statistics.seconds, paving.cells, paving.cells == 1 ? "" : "s");
+  text += fmt::format("boxes of ({}): {} inside, {} boundary, {} outside\n", fmt::join(paving.names, ", "),
+                      count(paving.inside), count(paving.boundary), count(paving.outside));
+  text += fmt::format("volume: at least {:.6g} inside, at most {:.6g} boundary\n", paving.inside_volume,
+                      paving.boundary_volume);
+  if (!paving.unexplored.empty()) text += fmt::format("unexplored: {} boxes\n", count(paving.unexplored));
+  if (result.status == Status::infeasible) return text + "no solution: proven\n";
+  list(result.variables, shown, text);
+  return text;
+}
+
 }  // namespace
 
 std::string summary(const Result& result, const std::vector<std::string>& shown) {
@@ -164,6 +180,7 @@ std::string summary(const Result& result, const std::vector<std::string>& shown)
     const std::size_t left = result.search->unexplored.size();
     return summary_of_search(result, shown) + (left == 0 ? "" : fmt::format("unexplored: {} boxes\n", left));
   }
+  if (result.paving) return summary_of_paving(result, shown);
   std::string text = fmt::format("{}: {} in {:.4g} s, {} pass{}\n", result.model, to_string(result.status),
                                  result.statistics.seconds, result.statistics.passes,
                                  result.statistics.passes == 1 ? "" : "es");

@@ -3,9 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <unordered_set>
 
 #include "solver/contractors/in_at_least.h"
+#include "solver/expression/connectives.h"
 #include "solver/expression/operators.h"
 
 namespace hcsp {
@@ -15,41 +15,6 @@ namespace {
 // Relations that share parts may be far larger as formulas than as graphs. What is beyond this many atoms and
 // connectives is contracted by plain HC4-revise.
 constexpr std::size_t kLargestFormula = 10'000;
-
-// The relations of a count `k <= c1 + c2 + ...`; none where the node is no count.
-std::vector<NodeId> counted(const Dag& dag, NodeId sum) {
-  std::vector<NodeId> open{sum}, relations;
-  while (!open.empty() && relations.size() < kLargestFormula) {
-    const DagNode& node = dag[open.back()];
-    const NodeId id = open.back();
-    open.pop_back();
-    if (node.op == Op::add) {
-      open.insert(open.end(), {node.operands[0], node.operands[1]});
-    } else if (is_boolean(node.op)) {
-      relations.push_back(id);
-    } else {
-      return {};
-    }
-  }
-  return open.empty() ? relations : std::vector<NodeId>{};
-}
-
-// The operands of a chain of one connective, each once.
-std::vector<NodeId> operands_of(const Dag& dag, NodeId node, Op connective) {
-  std::vector<NodeId> open{node}, parts;
-  std::unordered_set<NodeId> seen;
-  while (!open.empty()) {
-    const NodeId id = open.back();
-    open.pop_back();
-    if (!seen.insert(id).second) continue;
-    if (dag[id].op == connective) {
-      open.insert(open.end(), {dag[id].operands[1], dag[id].operands[0]});
-    } else {
-      parts.push_back(id);
-    }
-  }
-  return parts;
-}
 
 }  // namespace
 
@@ -62,12 +27,14 @@ class Formula::Maker {
     const DagNode& node = dag_[id];
     if (++size_ > kLargestFormula) return atom(id, wanted);
     if (node.op == Op::logical_not) return make(node.operands[0], !wanted);
+    // What holds for every value, or for some, holds for some value of the domain that the inputs give.
+    if (is_quantifier(node.op)) return make(node.operands[1], wanted);
     if (node.op == Op::logical_and || node.op == Op::logical_or) {
       const std::vector<NodeId> relations = operands_of(dag_, id, node.op);
       return count(relations, node.op == Op::logical_and ? relations.size() : 1, wanted);
     }
     if (node.op == Op::less_equal && dag_[node.operands[0]].op == Op::constant) {
-      const std::vector<NodeId> relations = counted(dag_, node.operands[1]);
+      const std::vector<NodeId> relations = counted_relations(dag_, node.operands[1], kLargestFormula);
       const double least = dag_[node.operands[0]].value.lo();
       if (relations.size() > 1 && least >= 1 && least <= static_cast<double>(relations.size()))
         return count(relations, static_cast<std::size_t>(std::ceil(least)), wanted);

@@ -54,6 +54,8 @@ enum class Op : std::uint8_t {
   not_equal,
   logical_and,
   logical_or,
+  for_every,
+  for_some,
   logical_not,
   if_then_else,
 };

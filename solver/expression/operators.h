@@ -365,6 +365,15 @@ struct Or : Boundwise {
   }
 };
 
+/// Operands: the real that is bound, over its declared domain, and a relation. With the whole domain in the
+/// bound operand the relation's own value encloses the quantifier's, and what contracts it contracts that:
+/// what holds for every value holds for some. search/membership.h tells more.
+struct ForEvery : Boundwise {
+  static I forward(const I&, const I& b, const I&) { return b; }
+  static void backward(const I& y, I&, I& b, I&) { b = meet(b, y); }
+};
+struct ForSome : ForEvery {};
+
 struct Not : Boundwise {
   static I forward(const I& a, const I&, const I&) { return I::raw(1.0 - a.hi(), 1.0 - a.lo()); }
   static void backward(const I& y, I& a, I&, I&) { a = meet(a, I::raw(1.0 - y.hi(), 1.0 - y.lo())); }
@@ -443,6 +452,8 @@ inline constexpr bool is_total = std::is_base_of_v<Total, Operator> && !std::is_
   X(not_equal, NotEqual, "!=", 2)      \
   X(logical_and, And, "and", 2)        \
   X(logical_or, Or, "or", 2)           \
+  X(for_every, ForEvery, "forall", 2)  \
+  X(for_some, ForSome, "exists", 2)    \
   X(logical_not, Not, "not", 1)        \
   X(if_then_else, IfThenElse, "if", 3)
 // clang-format on
@@ -470,6 +481,7 @@ decltype(auto) with_operator(Op op, F&& f) {
 }
 
 constexpr bool is_relation(Op op) { return op >= Op::less && op <= Op::not_equal; }
+constexpr bool is_quantifier(Op op) { return op == Op::for_every || op == Op::for_some; }
 constexpr bool is_boolean(Op op) { return op >= Op::less && op <= Op::logical_not; }
 
 }  // namespace hcsp

@@ -98,10 +98,35 @@ std::string search_csv(const Result& result) {
   return report::to_text(out);
 }
 
+// A row a box, with its kind.
+std::string paving_csv(const Paving& paving) {
+  TextBuffer out;
+  NumberTexts texts;
+  put(out, "kind");
+  for (const std::string& name : paving.names) fmt::format_to(fmt::appender(out), ",{}.lo,{}.hi", name, name);
+  put(out, '\n');
+  const auto put_rows = [&](std::string_view kind, const std::vector<Interval>& boxes) {
+    for (std::size_t i = 0; i < boxes.size(); ++i) {
+      if (i % paving.names.size() == 0) put(out, kind);
+      put(out, ',');
+      put(out, texts.of(boxes[i].lo()));
+      put(out, ',');
+      put(out, texts.of(boxes[i].hi()));
+      if ((i + 1) % paving.names.size() == 0) put(out, '\n');
+    }
+  };
+  put_rows("inside", paving.inside);
+  put_rows("boundary", paving.boundary);
+  put_rows("outside", paving.outside);
+  put_rows("unexplored", paving.unexplored);
+  return report::to_text(out);
+}
+
 }  // namespace
 
 std::string to_csv(const Result& result) {
   if (result.search) return search_csv(result);
+  if (result.paving) return paving_csv(*result.paving);
   const TimeLine* line = nullptr;  // of the first tube: all tubes of a model stand on one line
   for (const ResultVariable& variable : result.variables) {
     const auto* tube = std::get_if<Tube>(&variable.domain);

@@ -203,6 +203,37 @@ void put_objective(TextBuffer& out, const Interval& objective) {
   put(out, " },\n");
 }
 
+// Boxes as lists [lo1, hi1, lo2, hi2, ...].
+void put_boxes(TextBuffer& out, NumberTexts& texts, const std::vector<Interval>& boxes, std::size_t dim) {
+  put_list(out, boxes.size() / dim, [&](std::size_t k) {
+    put(out, k % 4 == 0 ? "\n      [" : " [");
+    for (std::size_t i = 2 * k * dim; i < 2 * (k + 1) * dim; ++i) {
+      if (i != 2 * k * dim) put(out, ", ");
+      put_number(out, texts, i % 2 == 0 ? boxes[i / 2].lo() : boxes[i / 2].hi());
+    }
+    put(out, ']');
+  });
+}
+
+void put_paving(TextBuffer& out, NumberTexts& texts, const Paving& paving) {
+  const std::size_t dim = paving.names.size();
+  put(out, "  \"paving\": {\n    \"names\": ");
+  put_list(out, dim, [&](std::size_t v) { put_json_string(out, paving.names[v]); });
+  put(out, ",\n    \"volume\": { \"inside\": ");
+  put_json_number(out, paving.inside_volume);
+  put(out, ", \"boundary\": ");
+  put_json_number(out, paving.boundary_volume);
+  put(out, " },\n    \"inside\": ");
+  put_boxes(out, texts, paving.inside, dim);
+  put(out, ",\n    \"boundary\": ");
+  put_boxes(out, texts, paving.boundary, dim);
+  put(out, ",\n    \"outside\": ");
+  put_boxes(out, texts, paving.outside, dim);
+  put(out, "\n  },\n  \"unexplored\": ");
+  put_boxes(out, texts, paving.unexplored, dim);
+  put(out, ",\n");
+}
+
 void put_explanation(TextBuffer& out, NumberTexts& texts, const Explanation& why) {
   put(out, "  \"explanation\": {\n    \"constraint\": ");
   put_json_string(out, why.constraint);
@@ -254,6 +285,7 @@ void put_statistics(TextBuffer& out, const Result& result) {
   put(out, "  \"statistics\": {\n    \"seconds\": ");
   put_json_number(out, statistics.seconds);
   if (result.search) fmt::format_to(fmt::appender(out), ", \"cells\": {}", result.search->cells);
+  if (result.paving) fmt::format_to(fmt::appender(out), ", \"cells\": {}", result.paving->cells);
   fmt::format_to(fmt::appender(out), ", \"passes\": {}, \"threads\": {},\n    \"contractors\": {{",
                  statistics.passes, statistics.threads);
   bool first = true;
@@ -283,6 +315,7 @@ std::string to_json(const Result& result) {
   put(out, ",\n");
   if (result.search) put_search(out, texts, *result.search);
   if (result.objective) put_objective(out, *result.objective);
+  if (result.paving) put_paving(out, texts, *result.paving);
   if (result.explanation) put_explanation(out, texts, *result.explanation);
   put_statistics(out, result);
   put(out, "}\n");

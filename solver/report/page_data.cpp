@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "solver/report/binary.h"
+#include "solver/report/paving_map.h"
 #include "solver/report/text.h"
 
 namespace hcsp::report {
@@ -248,6 +249,26 @@ void put_search(TextBuffer& out, const SolutionSet& search, const Presentation& 
   put(out, '}');
 }
 
+void put_paving(TextBuffer& out, const Paving& paving) {
+  const PavingMap map = paving_map(paving);
+  put(out, R"({"names":)");
+  put_list(out, paving.names, [&](const std::string& name) { put_json_string(out, name); });
+  fmt::format_to(fmt::appender(out), R"(,"cells":{},"projected":{},"strip":{},"stretch":)", paving.cells,
+                 map.is_projected, map.names[1].empty());
+  put_json_number(out, map.stretch);
+  put(out, R"(,"volume":)");
+  put_pair(out, paving.inside_volume, paving.inside_volume + paving.boundary_volume);
+  put(out, R"(,"reach":)");
+  put_list(out, map.frame, [&](double bound) { put_json_number(out, bound); });
+  put(out, R"(,"inside":)");
+  put_doubles(out, map.inside);
+  put(out, R"(,"boundary":)");
+  put_doubles(out, map.boundary);
+  put(out, R"(,"unexplored":)");
+  put_doubles(out, map.unexplored);
+  put(out, '}');
+}
+
 void put_truth(TextBuffer& out, const Truth& truth) {
   put(out, R"({"t":)");
   put_doubles(out, truth.t);
@@ -288,6 +309,8 @@ void put_head(TextBuffer& out, const Result& result, const Presentation& present
   put(out, ",\"objective\":");
   const bool has_objective = result.objective && !result.objective->is_empty();
   has_objective ? put_pair(out, result.objective->lo(), result.objective->hi()) : put(out, "null");
+  put(out, ",\"paving\":");
+  result.paving ? put_paving(out, *result.paving) : put(out, "null");
 }
 
 }  // namespace

@@ -18,6 +18,9 @@ namespace hcsp::report {
 ///     of all items a set   { volume: [lo, hi], background } and in the plane reach [lo1, hi1, lo2, hi2] and
 ///     inside, unknown: { wide, boxes }, the
 ///             base64 of boxes of cells, lo1 hi1 lo2 hi2, as 16-bit or, if wide, as 32-bit integers
+///   paving: { names, cells, projected, strip, stretch, volume: [lo, hi], reach [lo1, hi1, lo2, hi2] and
+///   inside,
+///     boundary, unexplored: f64 } of rectangles lo1 hi1 lo2 hi2, see paving_map.h; or null
 ///   truth: { t: f64, tubes: { name: f64 } } }  or null
 /// A bound in float is rounded outward: it still encloses.
 std::string page_data(const Result& result, const Presentation& presentation);

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "solver/report/page_data.h"
+#include "solver/report/paving_map.h"
 #include "solver/report/svg_parts.h"
 
 namespace hcsp {
@@ -39,9 +40,15 @@ constexpr double kMostHeight = 4000;
 std::string caption(const Result& result) {
   std::string text =
       fmt::format("{} in {} s, ", to_string(result.status), report::for_people(result.statistics.seconds, 3));
-  text += result.search
-              ? fmt::format("{} boxes, {} cells", result.search->solutions.size(), result.search->cells)
-              : fmt::format("{} passes", result.statistics.passes);
+  if (result.paving) {
+    const Paving& paving = *result.paving;
+    text += fmt::format("{} cells; inside at least {}, boundary at most {}", paving.cells,
+                        report::for_people(paving.inside_volume), report::for_people(paving.boundary_volume));
+  } else if (result.search) {
+    text += fmt::format("{} boxes, {} cells", result.search->solutions.size(), result.search->cells);
+  } else {
+    text += fmt::format("{} passes", result.statistics.passes);
+  }
   if (result.objective && !result.objective->is_empty())
     text += fmt::format(", objective in {}", to_string(*result.objective));
   if (!result.explanation) return text;
@@ -59,7 +66,7 @@ std::string caption(const Result& result) {
 std::string to_svg(const Result& result, const Presentation& presentation) {
   const std::vector<const ResultVariable*> shown = report::shown_variables(result.variables, presentation);
   const std::vector<report::TimePlot> plots = report::time_plots(shown);
-  const bool with_map = report::has_map(shown);
+  const bool with_map = result.paving || report::has_map(shown);
   const auto count = static_cast<double>(plots.size());
   const double plots_height = std::clamp(with_map ? kMapEdge : 200 * count, 150 * count, kMostHeight);
   const double width = (with_map ? kGap + kMapEdge : 0) + (plots.empty() ? 0 : kGap + kPlotWidth) + 30;
@@ -75,7 +82,11 @@ std::string to_svg(const Result& result, const Presentation& presentation) {
   fmt::format_to(fmt::appender(out),
                  "<text class=\"title\" x=\"20\" y=\"28\">{}</text>\n<text x=\"20\" y=\"46\">{}</text>\n",
                  report::xml_escape(result.model), report::xml_escape(caption(result)));
-  if (with_map) report::put_map(out, kGap, kTop, kMapEdge, shown, presentation);
+  if (result.paving) {
+    report::put_paving(out, kGap, kTop, kMapEdge, *result.paving);
+  } else if (with_map) {
+    report::put_map(out, kGap, kTop, kMapEdge, shown, presentation);
+  }
   const double left = (with_map ? kGap + kMapEdge : 0) + kGap;
   const double step = plots_height / std::max(count, 1.0);
   for (std::size_t i = 0; i < plots.size(); ++i) {

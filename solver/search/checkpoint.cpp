@@ -37,22 +37,28 @@ std::uint64_t hash_of(std::string_view bytes, std::uint64_t before) {
 }
 
 std::uint64_t mark_of(const System& system, std::string_view goal, const SearchOptions& options) {
+  return mark_of(system.dag, system.stated, system.domains, system.is_whole, goal, options);
+}
+
+std::uint64_t mark_of(const Dag& dag, const std::vector<NodeId>& stated, const std::vector<Interval>& domains,
+                      const std::vector<std::uint8_t>& is_whole, std::string_view goal,
+                      const SearchOptions& options) {
   Hash hash;
   hash.add(goal);
   hash.add(options.precision);
-  for (std::size_t v = 0; v < system.size(); ++v) {
-    hash.add(system.domains[v]);
-    hash.add(system.is_whole[v]);
+  for (std::size_t v = 0; v < domains.size(); ++v) {
+    hash.add(domains[v]);
+    hash.add(is_whole[v]);
   }
-  for (const NodeId id : needed_nodes(system.dag, system.stated)) {
-    const DagNode& node = system.dag[id];
+  for (const NodeId id : needed_nodes(dag, stated)) {
+    const DagNode& node = dag[id];
     hash.add(id);
     hash.add(node.op);
     for (const NodeId operand : node.operands) hash.add(operand);
     if (node.op == Op::constant) hash.add(node.value);
     if (node.op == Op::input) hash.add(node.input.variable);
   }
-  for (const NodeId id : system.stated) hash.add(id);
+  for (const NodeId id : stated) hash.add(id);
   return hash.value();
 }
 

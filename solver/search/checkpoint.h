@@ -19,6 +19,10 @@ std::uint64_t hash_of(std::string_view bytes, std::uint64_t before = 0xcbf29ce48
 /// What a state of one search has in common with no other problem's or goal's: a hash of the relations, the
 /// domains and the precision.
 std::uint64_t mark_of(const System& system, std::string_view goal, const SearchOptions& options);
+/// The same of relations between unknowns that are no System.
+std::uint64_t mark_of(const Dag& dag, const std::vector<NodeId>& stated, const std::vector<Interval>& domains,
+                      const std::vector<std::uint8_t>& is_whole, std::string_view goal,
+                      const SearchOptions& options);
 
 std::string sealed(const nlohmann::json& state, std::uint64_t mark);
 /// What was sealed. std::invalid_argument where the bytes are damaged, or have another mark.

@@ -30,13 +30,13 @@ bool Newton::expand_over(const std::vector<Interval>& box) {
 }
 
 // As many equations as unknowns: those that Gauss's elimination of the midpoint pivots on. A whole number
-// that is known is none of them.
+// that is known is none of them, nor is what is given.
 bool Newton::choose_square(const std::vector<Interval>& box) {
   const std::size_t m = forms_.size(), n = box.size(), size = rows_.size();
   Eigen::MatrixXd middle(static_cast<Eigen::Index>(m), static_cast<Eigen::Index>(n));
   for (Eigen::Index e = 0; e < middle.rows(); ++e) {
     for (std::size_t v = 0; v < n; ++v) {
-      const bool is_known = system_.is_whole[v] != 0 && box[v].is_point();
+      const bool is_known = system_.is_given[v] != 0 || (system_.is_whole[v] != 0 && box[v].is_point());
       middle(e, static_cast<Eigen::Index>(v)) =
           is_known ? 0.0 : middle_of(forms_.slopes(static_cast<std::size_t>(e))[v]);
     }

@@ -43,6 +43,7 @@ System::System(Dag& graph, const std::vector<NodeId>& relations_stated, const st
     inputs.push_back(unknown.input);
     domains.push_back(unknown.domain);
     is_whole.push_back(unknown.is_whole ? 1 : 0);
+    is_given.push_back(unknown.is_given ? 1 : 0);
   }
   Sorted sorted;
   for (const NodeId relation : stated) sort(dag, relation, sorted);

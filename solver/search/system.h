@@ -30,6 +30,7 @@ struct System {
     Input input;
     Interval domain;
     bool is_whole = false;
+    bool is_given = false;  ///< for every value of it: equations are never solved for it
   };
 
   /// Sorts the conjuncts of relations between the unknowns; adds nodes to the graph, which outlives the
@@ -43,6 +44,7 @@ struct System {
   std::vector<NodeId> stated;          ///< the relations as they were given
   std::vector<Interval> domains;       ///< by unknown
   std::vector<std::uint8_t> is_whole;  ///< by unknown
+  std::vector<std::uint8_t> is_given;  ///< by unknown
   std::vector<Relation> relations;     ///< by root of the tape
   std::vector<Choice> choices;
   std::vector<std::vector<std::uint32_t>> relations_of;  ///< by unknown: the relations that it occurs in

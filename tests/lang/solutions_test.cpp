@@ -11,6 +11,8 @@
 //   // found: 4 unique                 of `solve all`: so many boxes have that certificate
 //   // minimum: -17 +- 1e-6            of an optimisation: its bracket, no wider, meets -17 +- 1e-6
 //   // minimum: none                   and nothing is feasible
+//   // boundary: <= 0.018              of `solve pave`: the boundary's volume
+//   // inside: 9.41 .. 9.43            of `solve pave`: what is proven to be inside has a volume between these
 // is solved, and its answer has to hold the solution and be no wider.
 #include <gtest/gtest.h>
 
@@ -176,7 +178,7 @@ TEST(Solutions, AreAllFoundAndCertified) {
       options.precision = compilation.model->precision;
       options.threads = 2;
       const Result result = compilation.model->problem->solve_all(options);
-      EXPECT_EQ(result.status, Status::solved);
+      EXPECT_EQ(result.status, result.search->solutions.empty() ? Status::infeasible : Status::solved);
       std::map<std::string, std::size_t> found, stated;
       for (const Solution& solution : result.search->solutions)
         ++found[std::string(to_string(solution.certificate))];
@@ -189,7 +191,40 @@ TEST(Solutions, AreAllFoundAndCertified) {
       ++checked;
     }
   }
-  EXPECT_GE(checked, 17U);
+  EXPECT_GE(checked, 46U);
+}
+
+// The models that ask for a paving.
+TEST(Solutions, ArePaved) {
+  static const std::regex kBoundary(R"(// boundary: <= (\S+))"), kInside(R"(// inside: (\S+) \.\. (\S+))");
+  std::size_t checked = 0;
+  for (const char* folder : {"tests/lang/good", "models/gallery"}) {
+    for (const auto& path : models_in(std::filesystem::path(HCSP_SOURCE_DIR) / folder)) {
+      const std::string text = read_text(path);
+      if (text.find("// boundary: ") == std::string::npos) continue;
+      SCOPED_TRACE(path.filename().string());
+      const Compilation compilation = compile_text({path.string(), text});
+      ASSERT_TRUE(compilation.model.has_value()) << compilation.diagnostics.text();
+      ASSERT_EQ(compilation.model->goal, SolveItem::Goal::pave);
+      SearchOptions options;
+      options.precision = compilation.model->precision;
+      options.threads = 2;
+      const Result result = compilation.model->problem->pave(compilation.model->paved, options);
+      EXPECT_EQ(result.status, Status::solved);
+      std::istringstream lines(text);
+      std::smatch match;
+      for (std::string line; std::getline(lines, line);) {
+        if (std::regex_match(line, match, kBoundary)) {
+          EXPECT_LE(result.paving->boundary_volume, std::stod(match[1]));
+          ++checked;
+        } else if (std::regex_match(line, match, kInside)) {
+          EXPECT_GE(result.paving->inside_volume, std::stod(match[1]));
+          EXPECT_LE(result.paving->inside_volume, std::stod(match[2]));
+        }
+      }
+    }
+  }
+  EXPECT_GE(checked, 5U);
 }
 
 void expect_optimum(const CompiledModel& model, const std::string& middle, const std::string& radius) {

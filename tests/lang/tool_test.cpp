@@ -95,6 +95,23 @@ TEST_F(Tool, SaysWhatIsWrongWithTheModel) {
   EXPECT_EQ(run("none.hcsp").status, 1);
 }
 
+TEST_F(Tool, ReadsFilesOfIbex) {
+  std::ofstream(folder_ / "pair.bch") << "Constants n = 2;\nVariables x[n] in [-9, 9];\n"
+                                         "Constraints\n  x(1) + x(2) = 3; x(1) - x(2) = 1;\nend\n";
+  const Finished solved = run("pair.bch -o pair.json");
+  EXPECT_EQ(solved.status, 0);
+  EXPECT_THAT(solved.text, HasSubstr("pair: solved in "));
+  EXPECT_THAT(solved.text, HasSubstr("1 box: 1 unique"));
+  EXPECT_EQ(nlohmann::json::parse(text_of("pair.json"))["solutions"].size(), 1U);
+  EXPECT_EQ(run("pair.bch --check").text, "");
+  EXPECT_EQ(run("pair.bch --dump types").text, "n : constant real\nx : real[2]\n");
+  EXPECT_THAT(run("pair.bch --dump graph").text, HasSubstr("label=\"line 4\""));
+  EXPECT_THAT(run("pair.bch --set n=3").text, HasSubstr("1 box: 1 exists"));
+  EXPECT_EQ(run("pair.bch --set n=1").status, 1);
+  EXPECT_EQ(run("pair.bch --format").status, 2);
+  EXPECT_EQ(run("pair.bch --dump ast").status, 2);
+}
+
 TEST_F(Tool, ExplainsInfeasibility) {
   const Finished result = run(model("var x : real in [0, 1];\nconstraint far: x >= 2;") + " -o a.json");
   EXPECT_EQ(result.status, 0);

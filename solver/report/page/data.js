@@ -75,6 +75,29 @@ class SetDomain {
   }
 }
 
+// A paving, as the map shows sets: rectangles lo1 hi1 lo2 hi2; `unknown` are those of the boundary.
+class PavingDomain {
+  constructor(data) {
+    Object.assign(this, data);
+    this.h = 1;
+    this.background = "outside";
+    this.volume = data.volume.map(number);
+    for (const kind of ["inside", "boundary", "unexplored"]) this[kind] = new Float64Array(bytes(data[kind]));
+  }
+  static holds(boxes, x, y) {
+    for (let k = 0; k < boxes.length; k += 4) {
+      if (boxes[k] <= x && x <= boxes[k + 1] && boxes[k + 2] <= y && y <= boxes[k + 3]) return true;
+    }
+    return false;
+  }
+  stateAt(x, y) {
+    const kinds = ["inside", "boundary", "unexplored"].filter((kind) => PavingDomain.holds(this[kind], x, y));
+    if (kinds.length) return this.projected ? "some " + kinds.join(" and ") : kinds[0];
+    const [lo1, hi1, lo2, hi2] = this.reach;
+    return lo1 <= x && x <= hi1 && lo2 <= y && y <= hi2 ? "outside" : "beyond the domain";
+  }
+}
+
 function decodeDomain(coded, variable, lines) {
   if (variable.kind === "tube") return new TubeDomain(coded, variable, lines[variable.line]);
   if (variable.kind === "set") return new SetDomain(coded, variable);
@@ -105,6 +128,12 @@ function decode(data) {
     }) });
   }
   const variables = data.variables.map((variable, index) => Object.assign({}, variable, { index }));
+  if (data.paving) {
+    const dim = data.paving.names.length, name = dim === 1 ? data.paving.names[0] : "(" + data.paving.names.join(", ") + ")";
+    variables.push({ name, kind: "paving", dim, index: variables.length });
+    const domain = new PavingDomain(data.paving);
+    for (const frame of frames) frame.domains.push(domain);
+  }
   const truth = decodeTruth(data.truth) || {};
   return Object.assign({}, data, { lines, frames, variables, truth });
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The map: sets of the plane and tubes on a canvas, cell by cell; truth, axes and marks in SVG above it.
+// The map: pavings, sets of the plane and tubes on a canvas, cell by cell; truth, axes and marks in SVG above it.
 
 class MapView {
   constructor(data, layers, onHover) {
@@ -15,6 +15,9 @@ class MapView {
     this.axisX = this.svg.append("g").attr("class", "axis");
     this.axisY = this.svg.append("g").attr("class", "axis");
     this.marks = this.svg.append("g");
+    const paving = layers.filter((layer) => layer.kind === "boundary").map((layer) => lastDomain(data, layer.index))[0];
+    this.stretch = paving ? paving.stretch : 1;
+    this.axisNames = paving ? [paving.names[0], paving.strip ? "" : paving.names[1]] : null;
     this.world = this.extent();
     this.zoom = d3.zoom().scaleExtent([0.3, 400]).on("zoom", () => this.draw());
     this.svg.call(this.zoom).on("dblclick.zoom", null);
@@ -42,7 +45,9 @@ class MapView {
     };
     for (const layer of this.layers.filter((each) => each.on)) {
       const domain = lastDomain(this.data, layer.index);
-      if (layer.kind === "truth") {
+      if (layer.kind === "boundary") {
+        addBoxes(domain.reach, 1);
+      } else if (layer.kind === "truth") {
         const truth = this.data.truth[layer.name];
         for (let row = 0; row < truth.t.length; ++row) add(truth.at(row, 0), truth.at(row, 1));
       } else if (!domain) {
@@ -61,20 +66,20 @@ class MapView {
     return { x: (x0 + x1) / 2, y: (y0 + y1) / 2, width: Math.max(x1 - x0, 1e-9), height: Math.max(y1 - y0, 1e-9) };
   }
 
-  // Pixels of the canvas: screen = a * world + b on each axis, alike but for the sign.
+  // Pixels of the canvas: screen = a * world + b on each axis, alike but for the sign and the stretch of a paving.
   place() {
     const { width, height } = this.box.node().getBoundingClientRect();
     const zoom = d3.zoomTransform(this.svg.node());
-    const scale = 0.94 * Math.min(width / this.world.width, height / this.world.height);
+    const scale = 0.94 * Math.min(width / this.world.width, height / (this.stretch * this.world.height));
     this.size = { width, height };
     this.a = scale * zoom.k;
     this.bx = zoom.applyX(width / 2 - scale * this.world.x);
-    this.by = zoom.applyY(height / 2 + scale * this.world.y);
+    this.by = zoom.applyY(height / 2 + scale * this.stretch * this.world.y);
   }
   toX(x) { return this.a * x + this.bx; }
-  toY(y) { return this.by - this.a * y; }
+  toY(y) { return this.by - this.a * this.stretch * y; }
   fromX(px) { return (px - this.bx) / this.a; }
-  fromY(py) { return (this.by - py) / this.a; }
+  fromY(py) { return (this.by - py) / (this.a * this.stretch); }
 
   draw() {
     this.place();
@@ -85,7 +90,7 @@ class MapView {
       canvas.height = Math.round(this.size.height * this.dpr);
     }
     const context = this.canvas.getContext("2d");
-    for (const kind of ["unknown", "inside"]) {
+    for (const kind of ["unexplored", "boundary", "unknown", "inside"]) {
       for (const layer of this.layers) if (layer.kind === kind && layer.on) this.drawSet(context, layer);
     }
     for (const layer of this.layers) if (layer.kind === "tube" && layer.on) this.drawTube(context, layer);
@@ -108,11 +113,13 @@ class MapView {
     const domain = this.domain(layer);
     if (!domain) return;
     context.fillStyle = cssColor(layer.color);
-    context.globalAlpha = layer.kind === "inside" ? 0.55 : 0.17;
+    context.globalAlpha = { inside: 0.55, boundary: domain.projected ? 0.3 : 0.9, unexplored: 0.3, unknown: 0.17 }[layer.kind];
     const boxes = domain[layer.kind], h = domain.h;
     for (let k = 0; k < boxes.length; k += 4) {
       const rect = this.pixels(boxes[k] * h, boxes[k + 1] * h, boxes[k + 2] * h, boxes[k + 3] * h);
-      if (rect && rect[2] && rect[3]) context.fillRect(...rect);
+      // A boundary is seen from afar.
+      if (rect && layer.kind === "boundary") context.fillRect(rect[0], rect[1], Math.max(rect[2], 1), Math.max(rect[3], 1));
+      else if (rect && rect[2] && rect[3]) context.fillRect(...rect);
     }
     if (domain.background === layer.kind) {
       const [lo1, hi1, lo2, hi2] = domain.reach.map((cell) => cell * h);
@@ -163,12 +170,14 @@ class MapView {
       .call(d3.axisBottom(x).tickValues(keep(x, 34, width - 30)).tickSize(4).tickPadding(2));
     this.axisY.attr("transform", "translate(26,0)")
       .call(d3.axisLeft(y).tickValues(keep(y, 24, height - 26)).tickSize(4).tickPadding(2));
+    if (this.axisNames && !this.axisNames[1]) this.axisY.selectAll("*").remove();
     const names = this.layers.filter((layer) => layer.kind === "tube" && layer.on).concat(this.layers);
     const name = names.length ? names[0].name : "";
     const label = (axis, text, dx, dy) => axis.selectAll("text.title").data([text]).join("text")
       .attr("class", "title").attr("x", dx).attr("y", dy).attr("text-anchor", "middle").text((d) => d);
-    label(this.axisX, name + "\u2081", width - 14, 13);
-    label(this.axisY, name + "\u2082", -12, 15);
+    const [nameX, nameY] = this.axisNames || [name + "\u2081", name + "\u2082"];
+    label(this.axisX, nameX, width - 14, 13);
+    label(this.axisY, nameY, -12, 15);
   }
 
   drawTruth() {
@@ -222,8 +231,9 @@ class MapView {
   hover(event) {
     const frame = this.svg.node().getBoundingClientRect();
     const x = this.fromX(event.clientX - frame.left), y = this.fromY(event.clientY - frame.top);
-    const digits = Math.max(0, Math.ceil(Math.log10(this.a)));
-    const rows = [["", `(${x.toFixed(digits)}, ${y.toFixed(digits)})`]];
+    const digits = (scale) => Math.max(0, Math.ceil(Math.log10(scale)));
+    const at = [x.toFixed(digits(this.a)), y.toFixed(digits(this.a * this.stretch))];
+    const rows = [["", this.axisNames && !this.axisNames[1] ? at[0] : `(${at.join(", ")})`]];
     let time = null;
     const seen = new Set();
     for (const layer of this.layers) {

@@ -17,9 +17,19 @@ function leadingTube(data, tubes) {
   return tubes.find((tube) => data.truth[tube.name]) || tubes.find(changes) || tubes[0];
 }
 
+// Of a paving, what its boxes are.
+function layersOfPaving(data) {
+  return data.variables.filter((each) => each.kind === "paving").flatMap(({ index, name }) => {
+    const domain = data.frames[0].domains[index];
+    const colors = { inside: "--set-0", boundary: "--set-1", unexplored: "--set-3" };
+    return ["inside", "boundary", "unexplored"].filter((kind) => kind === "boundary" || domain[kind].length)
+      .map((kind) => ({ kind, index, name, color: colors[kind], on: true }));
+  });
+}
+
 // What the map can show. At first: what is known of every set, what is open of the bounded ones, one tube.
 function layersOf(data) {
-  const layers = [];
+  const layers = layersOfPaving(data);
   const sets = data.variables.filter((each) => each.kind === "set" && each.dim === 2 && lastDomain(data, each.index));
   const isBounded = (set) => lastDomain(data, set.index).background === "outside";
   sets.forEach((set, i) => {
@@ -44,9 +54,9 @@ function fillHeader(data) {
   d3.select("#status").text(data.status).classed(data.status, true)
     .attr("title", { contracted: "No solution was lost; whether one exists is not said.",
       infeasible: "It is proven that no solution exists.",
-      solved: "Every solution is in one of the boxes.",
+      solved: data.paving ? "No point outside belongs to the set, every point inside does." : "Every solution is in one of the boxes.",
       limit: "Stopped early; the domains still hold every solution." }[data.status] || null);
-  const facts = [["solved in", textOfSeconds(number(data.seconds))], data.search ? ["cells", data.search.cells] : ["passes", data.passes],
+  const facts = [["solved in", textOfSeconds(number(data.seconds))], data.search || data.paving ? ["cells", (data.search || data.paving).cells] : ["passes", data.passes],
     ["threads", data.threads]];
   const rows = d3.select("#facts").selectAll("div").data(facts).join("div");
   rows.append("dt").text((d) => d[0]);
@@ -120,7 +130,7 @@ function textOfDomain(domain, variable) {
   if (variable.kind === "tube") {
     return `width ${textOfNumber(domain.meanWidth())} on average, ${textOfNumber(domain.maxWidth())} at most`;
   }
-  if (variable.kind === "set") {
+  if (variable.kind === "set" || variable.kind === "paving") {
     return `${variable.dim === 1 ? "length" : variable.dim === 2 ? "area" : "volume"} in ${textOfBounds(...domain.volume)}`;
   }
   return domain.map(([lo, hi]) => textOfBounds(lo, hi)).join(" \u00d7 ");
@@ -128,7 +138,7 @@ function textOfDomain(domain, variable) {
 
 function fillDomains(data, frame) {
   const kinds = { tube: (v) => "tube real" + (v.dim > 1 ? `[${v.dim}]` : ""), set: (v) => `set real[${v.dim}]`,
-    real: () => "real", vector: (v) => `real[${v.dim}]` };
+    paving: (v) => v.dim > 2 ? `a set, projected` : "a set", real: () => "real", vector: (v) => `real[${v.dim}]` };
   const rows = d3.select("#domains").selectAll("tr").data(data.variables).join("tr").selectAll("td")
     .data((v) => [v.name, kinds[v.kind](v), textOfDomain(data.frames[frame].domains[v.index], v)]).join("td");
   rows.attr("class", (d, i) => i === 0 ? "name" : i === 1 ? "note" : null).text((d) => d);
@@ -148,13 +158,13 @@ function showTip(hover) {
 }
 
 function buildLegend(layers, redraw) {
-  const label = { inside: (l) => l.name + " inside", unknown: (l) => l.name + " unknown", tube: (l) => l.name,
+  const label = { boundary: () => "boundary", unexplored: () => "unexplored", inside: (l) => l.name + " inside", unknown: (l) => l.name + " unknown", tube: (l) => l.name,
     truth: (l) => "true " + l.name };
   const buttons = d3.select("#legend").selectAll("button").data(layers).join("button").attr("type", "button");
   buttons.append("span").attr("class", (d) => d.kind === "truth" ? "swatch is-line" : "swatch")
     .style("background", (d) => d.kind === "truth" ? null : `var(${d.color})`)
     .style("border-color", (d) => d.kind === "truth" ? `var(${d.color})` : null)
-    .style("opacity", (d) => ({ unknown: 0.35, inside: 0.75 })[d.kind] || null);
+    .style("opacity", (d) => ({ unknown: 0.35, inside: 0.75, unexplored: 0.5 })[d.kind] || null);
   buttons.append("span").text((d) => label[d.kind](d));
   const mark = () => buttons.attr("aria-pressed", (d) => String(d.on));
   buttons.on("click", function () {

@@ -118,6 +118,9 @@ Interval truth_at(Op op, const Operands& x) {
       return boolean(a != 0 && b != 0);
     case Op::logical_or:
       return boolean(a != 0 || b != 0);
+    case Op::for_every:
+    case Op::for_some:
+      return boolean(b != 0);
     case Op::logical_not:
       return boolean(a == 0);
     default:
