@@ -6,7 +6,7 @@
 set -euo pipefail
 
 build=(cmake ninja-build g++ libboost1.81-dev libeigen3-dev libfmt-dev libmpfr-dev libtbb-dev libcli11-dev
-       nlohmann-json3-dev node-d3)
+       nlohmann-json3-dev coinor-libclp-dev node-d3)
 tests=(libgtest-dev libgmock-dev python3 clang-format clang-tidy chromium)
 
 case "${1:-}" in

@@ -75,6 +75,7 @@ void build(Compilation& compilation, const CompileOptions& options) {
   compiled.name = model.name;
   compiled.goal = model.goal->goal;
   if (model.precision > 0) compiled.precision = model.precision;
+  compiled.objective = model.objective;
   compiled.paved = model.paved;
   for (const Item& item : compilation.tree->items) {
     const auto* show = std::get_if<ShowItem>(&item.content);

@@ -40,8 +40,9 @@ struct CompiledModel {
   std::string name;
   std::unique_ptr<Problem> problem;
   SolveItem::Goal goal = SolveItem::Goal::propagate;
-  std::optional<hcsp::Expr> objective;           ///< what `minimize` minimizes
   double precision = SearchOptions{}.precision;  ///< of the goals that have one
+  double absolute_precision = 0.0;               ///< SearchOptions::absolute_precision
+  std::optional<hcsp::Expr> objective;           ///< of the goals minimize and maximize
   std::vector<hcsp::Expr> paved;                 ///< the coordinates of `solve pave`
   std::vector<std::string> shown;                ///< what the model asks to show, in its order
   /// From the first use of a data value to the finished Problem: part of what a result calls its seconds.

@@ -188,6 +188,11 @@ class Problem {
   /// Finds every solution (branch and prune). std::invalid_argument unless is_system() and the precision is
   /// positive.
   Result solve_all(const SearchOptions& options = {});
+  /// Finds the least value of an expression of the unknowns over all solutions, or the greatest, and boxes
+  /// that hold every solution where it is taken (branch and bound). std::invalid_argument unless is_system(),
+  /// the expression is a number, and the precision is positive.
+  Result minimize(Expr objective, const SearchOptions& options = {});
+  Result maximize(Expr objective, const SearchOptions& options = {});
   /// Whether all unknowns are such and all constraints relations, with quantifiers or without: what pave()
   /// takes.
   [[nodiscard]] bool is_region() const;

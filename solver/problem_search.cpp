@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "solver/problem_impl.h"
+#include "solver/search/branch_and_bound.h"
 #include "solver/search/branch_and_prune.h"
 
 namespace hcsp {
@@ -14,6 +15,72 @@ std::vector<Input> inputs_of(const Dag& dag, const std::vector<NodeId>& relation
   return relations.empty() ? std::vector<Input>{} : Program(dag, relations).inputs();
 }
 
+// The unknowns of a search, and what its boxes tell of all of the problem's.
+struct SearchView {
+  const ProblemView problem;
+  std::vector<System::Unknown> unknowns;
+  std::map<VariableId, std::size_t> place_of;
+
+  SearchView(const ProblemView& view, const std::vector<Input>& inputs, const std::set<VariableId>& whole)
+      : problem(view) {
+    for (const Input& input : inputs) {
+      place_of.emplace(input.variable, unknowns.size());
+      unknowns.push_back(
+          {input, view.graph.initial<Interval>(input.variable), whole.contains(input.variable)});
+    }
+  }
+
+  [[nodiscard]] std::vector<ResultVariable> variables_in(const std::vector<Interval>& box) const {
+    return declared_domains(problem, [&](VariableId id) -> Domain {
+      const auto place = place_of.find(id);
+      return place == place_of.end() ? problem.graph.initial<Interval>(id) : box[place->second];
+    });
+  }
+
+  // Unknowns that are in no relation have many values.
+  [[nodiscard]] bool is_of_all() const {
+    for (VariableId v = 0; v < problem.kinds.size(); ++v) {
+      if (!place_of.contains(v) && !problem.graph.initial<Interval>(v).is_point()) return false;
+    }
+    return true;
+  }
+};
+
+// A result with the boxes of a search in it, and around all of them.
+Result result_of(const SearchView& view, const std::vector<FoundBox>& found,
+                 const std::vector<std::vector<Interval>>& unexplored, std::uint64_t cells) {
+  Result result;
+  result.model = view.problem.name;
+  result.search.emplace();
+  result.search->cells = cells;
+  std::vector<Interval> around(view.unknowns.size(), Interval::empty());
+  const auto widen = [&](const std::vector<Interval>& box) {
+    for (std::size_t v = 0; v < box.size(); ++v) around[v] = join(around[v], box[v]);
+  };
+  for (const FoundBox& box : found) {
+    const bool is_one_of_many = box.certificate == Certificate::unique && !view.is_of_all();
+    result.search->solutions.push_back(
+        {is_one_of_many ? Certificate::exists : box.certificate, box.reason, view.variables_in(box.box)});
+    widen(box.box);
+  }
+  for (const std::vector<Interval>& box : unexplored) {
+    result.search->unexplored.push_back(view.variables_in(box));
+    widen(box);
+  }
+  const bool is_feasible = !found.empty() || !unexplored.empty();
+  result.status = !unexplored.empty() ? Status::limit : is_feasible ? Status::solved : Status::infeasible;
+  result.variables = view.variables_in(around);
+  for (ResultVariable& variable : result.variables) {
+    if (!is_feasible) std::visit([](auto& domain) { domain = bottom(domain); }, variable.domain);
+  }
+  return result;
+}
+
+void tell_time(Result& result, double started, const SearchOptions& options) {
+  result.statistics.seconds = options.spent_before + options.clock() - started;
+  result.statistics.threads = options.threads;
+}
+
 }  // namespace
 
 bool Problem::is_system() const { return is_region() && impl_->bound.empty(); }
@@ -22,54 +89,39 @@ Result Problem::solve_all(const SearchOptions& options) {
   require(is_system(), "Problem: solve_all() is for relations between reals");
   require(options.precision > 0, "Problem: a precision of {}", options.precision);
   const double started = options.clock();
-  std::vector<System::Unknown> unknowns;
-  std::map<VariableId, std::size_t> place_of;
-  for (const Input& input : inputs_of(impl_->dag, impl_->relations)) {
-    place_of.emplace(input.variable, unknowns.size());
-    unknowns.push_back(
-        {input, impl_->graph.initial<Interval>(input.variable), impl_->whole.contains(input.variable)});
-  }
-  const System system(impl_->dag, impl_->relations, unknowns);
+  const SearchView view(impl_->view(), inputs_of(impl_->dag, impl_->relations), impl_->whole);
+  const System system(impl_->dag, impl_->relations, view.unknowns);
   const SearchAnswer answer = branch_and_prune(system, options);
+  Result result = result_of(view, answer.found, answer.unexplored, answer.cells);
+  tell_time(result, started, options);
+  return result;
+}
 
-  const auto variables_in = [&](const std::vector<Interval>& box) {
-    return declared_domains(impl_->view(), [&](VariableId id) -> Domain {
-      const auto place = place_of.find(id);
-      return place == place_of.end() ? impl_->graph.initial<Interval>(id) : box[place->second];
-    });
-  };
-  // Unknowns that are in no relation have many values.
-  bool all_related = true;
-  for (VariableId v = 0; v < impl_->kinds.size(); ++v)
-    all_related = all_related && (place_of.contains(v) || impl_->graph.initial<Interval>(v).is_point());
-  Result result;
-  result.model = impl_->name;
-  result.search.emplace();
-  result.search->cells = answer.cells;
-  std::vector<Interval> around(system.size(), Interval::empty());
-  const auto widen = [&](const std::vector<Interval>& box) {
-    for (std::size_t v = 0; v < box.size(); ++v) around[v] = join(around[v], box[v]);
-  };
-  for (const FoundBox& found : answer.found) {
-    const bool is_one_of_many = found.certificate == Certificate::unique && !all_related;
-    result.search->solutions.push_back(
-        {is_one_of_many ? Certificate::exists : found.certificate, found.reason, variables_in(found.box)});
-    widen(found.box);
-  }
-  for (const std::vector<Interval>& box : answer.unexplored) {
-    result.search->unexplored.push_back(variables_in(box));
-    widen(box);
-  }
-  const bool is_feasible = !answer.found.empty() || !answer.unexplored.empty();
-  result.status = !answer.unexplored.empty() ? Status::limit
-                  : is_feasible              ? Status::solved
-                                             : Status::infeasible;
-  result.variables = variables_in(around);
-  for (ResultVariable& variable : result.variables) {
-    if (!is_feasible) std::visit([](auto& domain) { domain = bottom(domain); }, variable.domain);
-  }
-  result.statistics.seconds = options.spent_before + options.clock() - started;
-  result.statistics.threads = options.threads;
+Result Problem::minimize(Expr objective, const SearchOptions& options) {
+  require(is_system(), "Problem: minimize() is for relations between reals");
+  require(options.precision > 0, "Problem: a precision of {}", options.precision);
+  const NodeId node = impl_->node_of(objective);
+  require(!impl_->holds_or_not(node), "Problem: the objective is a relation");
+  const double started = options.clock();
+  std::vector<NodeId> all = impl_->relations;
+  all.push_back(node);
+  const SearchView view(impl_->view(), inputs_of(impl_->dag, all), impl_->whole);
+  const Input value{Input::Kind::real, static_cast<VariableId>(impl_->kinds.size()), 0, 0};
+  const Minimisation problem(impl_->dag, node, impl_->relations, view.unknowns, value);
+  const MinimumAnswer answer = branch_and_bound(problem, options);
+  std::vector<FoundBox> found;
+  if (answer.best) found.push_back({*answer.best, Certificate::exists, Reason::proven});
+  for (const std::vector<Interval>& box : answer.boxes)
+    found.push_back({box, Certificate::none, Reason::boundary});
+  Result result = result_of(view, found, answer.unexplored, answer.cells);
+  result.objective = answer.minimum;
+  tell_time(result, started, options);
+  return result;
+}
+
+Result Problem::maximize(Expr objective, const SearchOptions& options) {
+  Result result = minimize(-objective, options);
+  result.objective = -*result.objective;
   return result;
 }
 

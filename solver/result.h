@@ -17,7 +17,7 @@
 namespace hcsp {
 
 /// contracted: no solution was lost, whether one exists is not said; infeasible: proven, none exists;
-/// solved: the search for all solutions came to its end; limit: stopped early, the domains are still
+/// solved: the search came to its end; limit: stopped early, the domains are still
 /// guaranteed.
 enum class Status : std::uint8_t { contracted, infeasible, solved, limit };
 
@@ -117,7 +117,8 @@ struct Solution {
   std::vector<ResultVariable> variables;
 };
 
-/// Every solution is in one of these boxes; no two unique ones hold the same.
+/// Every solution is in one of these boxes; no two unique ones hold the same. Of an optimisation, every best
+/// one is, and the first box holds the best that is proven to exist, where there is one.
 struct SolutionSet {
   std::vector<Solution> solutions;                      ///< in the order of their lower bounds
   std::vector<std::vector<ResultVariable>> unexplored;  ///< boxes that a limit left
@@ -139,8 +140,10 @@ struct Paving {
 struct Result {
   std::string model;
   Status status = Status::contracted;
-  std::vector<ResultVariable> variables;   ///< in the order of declaration, hidden ones left out
-  std::optional<SolutionSet> search;       ///< of a search for all solutions
+  std::vector<ResultVariable> variables;  ///< in the order of declaration, hidden ones left out
+  std::optional<SolutionSet> search;      ///< of a search for all solutions, or for those that are best
+  /// Of an optimisation: holds the infimum, or the supremum; empty where there is no solution.
+  std::optional<Interval> objective;
   std::optional<Paving> paving;            ///< of a search for the set of solutions
   std::optional<Explanation> explanation;  ///< when infeasible
   Statistics statistics;

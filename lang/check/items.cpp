@@ -313,17 +313,20 @@ void Checker::check_constraint(const ConstraintItem& item) {
 
 void Checker::check_solve(const SolveItem& item, const SourceRange& range) {
   model_.goal = &item;
-  if (item.goal == SolveItem::Goal::all || item.goal == SolveItem::Goal::pave) {
-    for (const Expr* paved : item.arguments) check_paved(*paved);
-    const Type precision = item.precision == nullptr ? Type{} : check(*item.precision);
-    if (!precision.is_error() && require_scalar(*item.precision, precision))
-      require_constant(*item.precision, precision);
+  if (item.goal == SolveItem::Goal::propagate) {
+    if (item.precision != nullptr) not_supported(range, "a precision of `solve propagate`");
     return;
   }
-  if (item.goal == SolveItem::Goal::propagate && item.precision == nullptr) return;
-  constexpr std::string_view kGoals[] = {"a precision of `solve propagate`", "", "", "`solve minimize`",
-                                         "`solve maximize`"};
-  not_supported(range, kGoals[static_cast<std::size_t>(item.goal)]);
+  if (item.goal == SolveItem::Goal::pave) {
+    for (const Expr* paved : item.arguments) check_paved(*paved);
+  }
+  if (is_optimisation(item.goal)) {
+    const Type objective = check(*item.arguments.front());
+    if (!objective.is_error()) require_scalar(*item.arguments.front(), objective);
+  }
+  const Type precision = item.precision == nullptr ? Type{} : check(*item.precision);
+  if (!precision.is_error() && require_scalar(*item.precision, precision))
+    require_constant(*item.precision, precision);
 }
 
 // Whether an expression names an unknown, or a part of one.

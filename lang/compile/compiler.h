@@ -35,6 +35,7 @@ class Compiler {
   // The time line and the unknowns.
   void check_goal();
   void find_paved();
+  void find_objective();
   void plan_tubes();
   bool make_time_line();
   std::vector<double> known_instants();

@@ -68,19 +68,29 @@ std::unique_ptr<Problem> Compiler::run() {
 }
 
 void Compiler::check_goal() {
-  const bool is_paving = model_.goal->goal == SolveItem::Goal::pave;
-  if (model_.diagnostics().any() || (model_.goal->goal != SolveItem::Goal::all && !is_paving)) return;
+  const SolveItem::Goal goal = model_.goal->goal;
+  if (model_.diagnostics().any() || goal == SolveItem::Goal::propagate) return;
+  const bool is_paving = goal == SolveItem::Goal::pave;
   if (model_.goal->precision != nullptr) {
     if (const auto precision = precision_of(*model_.goal->precision)) model_.precision = *precision;
   }
   if (is_paving) find_paved();
+  if (is_optimisation(goal)) find_objective();
   if (is_paving ? problem_->is_region() : problem_->is_system()) return;
+  const std::string_view named = is_paving                      ? "`solve pave`"
+                                 : goal == SolveItem::Goal::all ? "`solve all`"
+                                                                : "optimisation";
+  const std::string_view of =
+      problem_->is_region() ? "with quantifiers over reals" : "of more than relations between numbers";
   for (const Item& item : model_.tree().items) {
-    if (!std::holds_alternative<SolveItem>(item.content)) continue;
-    not_supported(item.range, is_paving               ? "`solve pave` of more than relations between numbers"
-                              : problem_->is_region() ? "`solve all` with quantifiers over reals"
-                                                      : "`solve all` of more than relations between numbers");
+    if (std::holds_alternative<SolveItem>(item.content))
+      not_supported(item.range, fmt::format("{} {}", named, of));
   }
+}
+
+void Compiler::find_objective() {
+  const Value objective = evaluator_.value(*model_.goal->arguments.front());
+  if (!objective.empty()) model_.objective = expression_of(*problem_, objective.front());
 }
 
 // The components of what is paved, in the order of the text.

@@ -11,7 +11,8 @@ namespace hcsp::lang::minibex {
 
 namespace {
 
-constexpr double kPrecision = 1e-3;  // IBEX's default
+// IBEX's defaults; of a minimum, the relative and the absolute gap.
+constexpr double kPrecision = 1e-3, kAbsolutePrecision = 1e-7;
 
 void replace_constants(const CompileOptions& options, Program& program, Compilation& compilation) {
   for (const auto& [name, value] : options.parameters) {
@@ -68,6 +69,7 @@ void compile(const Source& source, const CompileOptions& options, Compilation& c
   model.objective = compiler.objective();
   model.goal = model.objective ? SolveItem::Goal::minimize : SolveItem::Goal::all;
   model.precision = kPrecision;
+  model.absolute_precision = kAbsolutePrecision;
   compilation.model = std::move(model);
 }
 

@@ -76,8 +76,9 @@ class Model {
   std::vector<const Symbol*> definitions;  ///< parameters and lets, each after those that it uses
   const Symbol* time = nullptr;
   const SolveItem* goal = nullptr;
-  double precision = 0.0;         ///< of the goal; 0 where it states none. The compiler finds it.
-  std::vector<hcsp::Expr> paved;  ///< of `solve pave`: the coordinates. The compiler finds them.
+  double precision = 0.0;               ///< of the goal; 0 where it states none. The compiler finds it.
+  std::optional<hcsp::Expr> objective;  ///< of the goal; the compiler finds it too
+  std::vector<hcsp::Expr> paved;        ///< of `solve pave`: the coordinates. The compiler finds them.
   /// The constant instants at which tubes are taken: x(0).
   std::vector<const Expr*> instants;
   std::deque<Table> tables;

@@ -183,6 +183,9 @@ struct SolveItem {
   std::vector<Expr*> arguments;
   Expr* precision = nullptr;
 };
+inline bool is_optimisation(SolveItem::Goal goal) {
+  return goal == SolveItem::Goal::minimize || goal == SolveItem::Goal::maximize;
+}
 struct ShowItem {
   std::vector<Expr*> shown;
 };

@@ -32,11 +32,14 @@ const std::map<std::string, Bisector> kBisectors{{"smear", Bisector::smear},
 constexpr std::array kOfSearch{"--precision", "--order", "--bisector", "--checkpoint", "--resume"};
 
 void declare_search(CLI::App& app, Options& options) {
-  app.add_option("--precision", options.precision,
-                 "Of a search, in place of the model's: no box is cut finer")
+  app.add_option(
+         "--precision", options.precision,
+         "Of a search, in place of the model's: no box is cut finer; of an optimisation, the absolute or "
+         "relative width of the bracket")
       ->check(CLI::PositiveNumber)
       ->option_text("P");
-  app.add_option("--order", options.order, "Of a search: depth (first) or best (first)")
+  app.add_option("--order", options.order,
+                 "Of a search: depth (first) or best (first, as an optimisation is by itself)")
       ->transform(CLI::Transformer(kOrders))
       ->option_text("ORDER");
   app.add_option("--bisector", options.bisector,

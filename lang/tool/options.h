@@ -18,7 +18,7 @@ struct Options {
   double time_limit = 0.0;
   double memory_limit = 0.0;  // megabytes; 0 is none
   double precision = 0.0;     // of the model where 0
-  SearchOrder order = SearchOrder::depth_first;
+  std::optional<SearchOrder> order;
   Bisector bisector = Bisector::smear;
   std::string checkpoint;
   std::string resume;

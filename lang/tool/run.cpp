@@ -74,6 +74,7 @@ SearchOptions search_options(const Options& options, const lang::CompiledModel& 
                              SearchProgress& progress) {
   SearchOptions search;
   search.precision = options.precision > 0 ? options.precision : model.precision;
+  if (options.precision == 0) search.absolute_precision = model.absolute_precision;
   search.order = options.order;
   search.bisector = options.bisector;
   search.threads = options.threads;
@@ -86,6 +87,13 @@ SearchOptions search_options(const Options& options, const lang::CompiledModel& 
   return search;
 }
 
+Result answer(const lang::CompiledModel& model, const SearchOptions& search) {
+  if (model.goal == lang::SolveItem::Goal::minimize) return model.problem->minimize(*model.objective, search);
+  if (model.goal == lang::SolveItem::Goal::maximize) return model.problem->maximize(*model.objective, search);
+  if (model.goal == lang::SolveItem::Goal::pave) return model.problem->pave(model.paved, search);
+  return model.problem->solve_all(search);
+}
+
 // Nothing, after a message, where there is no going on from the checkpoint.
 std::optional<Result> search(const Options& options, const lang::CompiledModel& model) {
   SearchProgress progress;
@@ -96,8 +104,7 @@ std::optional<Result> search(const Options& options, const lang::CompiledModel& 
     if (state) {
       search.resume = std::move(*state);
       const Watch watch(options.memory_limit, stop_asked, shows_progress(options) ? &progress : nullptr);
-      const bool is_paving = model.goal == lang::SolveItem::Goal::pave;
-      return is_paving ? model.problem->pave(model.paved, search) : model.problem->solve_all(search);
+      return answer(model, search);
     }
   } catch (const std::invalid_argument& refused) {
     error = refused.what();
@@ -203,10 +210,6 @@ int run(const Options& options) {
   }
   if (!draw_graph(options, compilation.model->problem->graph())) return kWrongInput;
   if (options.check_only || !options.dump.empty()) return kFinished;
-  if (compilation.model->goal == lang::SolveItem::Goal::minimize) {
-    fmt::print(stderr, "hcsp-solve: {}: minimizing is not supported yet\n", options.model);
-    return kWrongInput;
-  }
   return solve_and_tell(options, *compilation.model);
 }
 

@@ -144,6 +144,8 @@ std::string summary_of_search(const Result& result, const std::vector<std::strin
   const std::size_t boxes = search.solutions.size();
   std::string text = fmt::format("{}: {} in {:.4g} s, {} cell{}\n", result.model, to_string(result.status),
                                  result.statistics.seconds, search.cells, search.cells == 1 ? "" : "s");
+  if (result.objective && !result.objective->is_empty())
+    text += fmt::format("objective in {}\n", line(*result.objective));
   if (boxes == 0) return text + (result.status == Status::infeasible ? "no solution: proven\n" : "");
   text += fmt::format("{} box{}: {}\n", boxes, boxes == 1 ? "" : "es", certificates(search));
   for (std::size_t i = 0; i < std::min(boxes, kShown); ++i) {

@@ -79,10 +79,17 @@ void put_row(TextBuffer& out, NumberTexts& texts, const std::vector<Column>& col
 std::string search_csv(const Result& result) {
   TextBuffer out;
   NumberTexts texts;
-  put_header(out, result, "certificate,reason");
+  put_header(out, result,
+             result.objective ? "certificate,reason,objective.lo,objective.hi" : "certificate,reason");
   const auto put_box = [&](const std::vector<ResultVariable>& box, std::string_view certificate,
                            std::string_view reason) {
     fmt::format_to(fmt::appender(out), "{},{},", certificate, reason);
+    if (result.objective) {
+      put(out, texts.of(result.objective->lo()));
+      put(out, ',');
+      put(out, texts.of(result.objective->hi()));
+      put(out, ',');
+    }
     put_row(out, texts, columns_of(box, nullptr), 0);
   };
   for (const Solution& solution : result.search->solutions)

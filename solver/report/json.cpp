@@ -193,6 +193,16 @@ void put_search(TextBuffer& out, NumberTexts& texts, const SolutionSet& search) 
   put(out, ",\n");
 }
 
+void put_objective(TextBuffer& out, const Interval& objective) {
+  put(out, "  \"objective\": ");
+  if (objective.is_empty()) return put(out, "null,\n");
+  put(out, R"({ "lo": )");
+  put_json_number(out, objective.lo());
+  put(out, R"(, "hi": )");
+  put_json_number(out, objective.hi());
+  put(out, " },\n");
+}
+
 // Boxes as lists [lo1, hi1, lo2, hi2, ...].
 void put_boxes(TextBuffer& out, NumberTexts& texts, const std::vector<Interval>& boxes, std::size_t dim) {
   put_list(out, boxes.size() / dim, [&](std::size_t k) {
@@ -304,6 +314,7 @@ std::string to_json(const Result& result) {
   put_variables(out, texts, result.variables);
   put(out, ",\n");
   if (result.search) put_search(out, texts, *result.search);
+  if (result.objective) put_objective(out, *result.objective);
   if (result.paving) put_paving(out, texts, *result.paving);
   if (result.explanation) put_explanation(out, texts, *result.explanation);
   put_statistics(out, result);

@@ -306,6 +306,9 @@ void put_head(TextBuffer& out, const Result& result, const Presentation& present
   result.explanation ? put_explanation(out, *result.explanation) : put(out, "null");
   put(out, ",\"search\":");
   result.search ? put_search(out, *result.search, presentation) : put(out, "null");
+  put(out, ",\"objective\":");
+  const bool has_objective = result.objective && !result.objective->is_empty();
+  has_objective ? put_pair(out, result.objective->lo(), result.objective->hi()) : put(out, "null");
   put(out, ",\"paving\":");
   result.paving ? put_paving(out, *result.paving) : put(out, "null");
 }

@@ -49,6 +49,8 @@ std::string caption(const Result& result) {
   } else {
     text += fmt::format("{} passes", result.statistics.passes);
   }
+  if (result.objective && !result.objective->is_empty())
+    text += fmt::format(", objective in {}", to_string(*result.objective));
   if (!result.explanation) return text;
   const Explanation& why = *result.explanation;
   text += fmt::format(": constraint {} leaves no value for {}", why.constraint, why.variable);

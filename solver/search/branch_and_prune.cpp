@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "domains/interval/kernel.h"
+#include "solver/search/boxes.h"
 #include "solver/search/checkpoint.h"
 #include "solver/search/choices.h"
 #include "solver/search/elimination.h"
@@ -18,20 +19,6 @@ namespace hcsp {
 
 namespace {
 
-// Where a domain is cut: in the middle, or where it is unbounded, far out.
-double cut_of(const Interval& x) {
-  constexpr double kFar = 1e8, kFarther = 1e3;
-  if (x.is_bounded()) return middle_of(x);
-  if (x.is_entire()) return 0.0;
-  if (x.lo() == -kInfinity) return -cut_of(-x);
-  return std::min(std::max(kFar, kFarther * x.lo()), std::numeric_limits<double>::max());
-}
-
-bool is_divisible(const Interval& x) {
-  const double cut = cut_of(x);
-  return x.lo() < cut && cut < x.hi();
-}
-
 bool lies_in(const std::vector<Interval>& a, const std::vector<Interval>& b) {
   return std::equal(a.begin(), a.end(), b.begin(),
                     [](const Interval& x, const Interval& y) { return leq(x, y); });
@@ -40,13 +27,6 @@ bool lies_in(const std::vector<Interval>& a, const std::vector<Interval>& b) {
 bool have_a_common_point(const std::vector<Interval>& a, const std::vector<Interval>& b) {
   return std::equal(a.begin(), a.end(), b.begin(),
                     [](const Interval& x, const Interval& y) { return !meet(x, y).is_empty(); });
-}
-
-bool comes_before(const std::vector<Interval>& a, const std::vector<Interval>& b) {
-  return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end(),
-                                      [](const Interval& x, const Interval& y) {
-                                        return x.lo() < y.lo() || (x.lo() == y.lo() && x.hi() < y.hi());
-                                      });
 }
 
 // A found box with a box around it: of a unique solution, one that holds no other.

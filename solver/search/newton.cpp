@@ -68,7 +68,9 @@ bool Newton::precondition() {
 // One step on a box; the image is met with it.
 Newton::Outcome Newton::step(const std::vector<Interval>& box, std::vector<Interval>& image) {
   const std::size_t n = box.size(), size = rows_.size();
-  if (!expand_over(box) || !precondition()) return Outcome::nothing;
+  forms_.expand_over(box);
+  const auto has_form = [&](std::uint32_t e) { return forms_.has_form(e); };
+  if (!std::all_of(rows_.begin(), rows_.end(), has_form) || !precondition()) return Outcome::nothing;
   forms_.evaluate_at_center();
   image = box;
   bool is_inside = true;
@@ -151,6 +153,26 @@ bool Newton::prove_some(const std::vector<Interval>& box) {
     if (step(reach_, image_) == Outcome::proven) return true;
   }
   return false;
+}
+
+Newton::Outcome Newton::contract(std::vector<Interval>& box, std::span<const std::uint32_t> rows,
+                                 std::span<const std::uint32_t> columns) {
+  rows_.assign(rows.begin(), rows.end());
+  columns_.assign(columns.begin(), columns.end());
+  if (rows_.empty() || !is_bounded(box)) return Outcome::nothing;
+  const Outcome outcome = step(box, image_);
+  if (outcome == Outcome::contracted || outcome == Outcome::proven) box = image_;
+  return outcome;
+}
+
+bool Newton::prove_in(const std::vector<Interval>& reach, std::span<const std::uint32_t> rows,
+                      std::span<const std::uint32_t> solved) {
+  rows_.assign(rows.begin(), rows.end());
+  columns_.assign(solved.begin(), solved.end());
+  reach_ = reach;
+  if (step(reach_, image_) != Outcome::proven) return false;
+  polish();
+  return true;
 }
 
 bool Newton::is_one() const {

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <span>
 #include <vector>
 
 #include "solver/search/mean_value.h"
@@ -27,13 +28,27 @@ class Newton {
   [[nodiscard]] bool is_one() const;
   [[nodiscard]] const std::vector<Interval>& enclosure() const { return image_; }
 
-  /// Whether the equations, as many as unknowns, have exactly one solution near a box: reach() and enclosure()
-  /// are then as after contract(). PRECONDITION: the thread rounds upward.
+  /// Whether the equations, as many as unknowns, have exactly one solution near a box: reach() and
+  /// enclosure() are then as after contract(). PRECONDITION: the thread rounds upward.
   bool prove_alone(const std::vector<Interval>& box, double farthest);
 
   /// Whether the equations have a solution near a box for every value of the parameters in it. Then
   /// enclosure() holds these solutions, and every one in the box. PRECONDITION: the thread rounds upward.
   bool prove_some(const std::vector<Interval>& box);
+
+  // Of one Newton, either those above are called or one of those below.
+
+  /// One step on a box with some equations and as many unknowns; it may be proven, too: then the box has
+  /// exactly one solution of them for every value of the other unknowns. PRECONDITION: the thread rounds
+  /// upward.
+  Outcome contract(std::vector<Interval>& box, std::span<const std::uint32_t> rows,
+                   std::span<const std::uint32_t> columns);
+
+  /// Whether, for every value that the other unknowns have in `reach`, some equations have exactly one
+  /// solution there in as many unknowns that are to be solved for. Then it is in enclosure(). PRECONDITION:
+  /// the thread rounds upward.
+  bool prove_in(const std::vector<Interval>& reach, std::span<const std::uint32_t> rows,
+                std::span<const std::uint32_t> solved);
 
  private:
   Outcome step(const std::vector<Interval>& box, std::vector<Interval>& image);

@@ -4,6 +4,7 @@
 
 #include <atomic>
 #include <functional>
+#include <optional>
 #include <string>
 
 #include "solver/engine/propagation.h"
@@ -26,8 +27,11 @@ struct SearchProgress {
 };
 
 struct SearchOptions {
-  double precision = 1e-3;  ///< a box of which no side is wider is not cut any more
-  SearchOrder order = SearchOrder::depth_first;
+  /// A box of which no side is wider is not cut any more; of the bracket of a minimum, the absolute or the
+  /// relative width, whichever is reached first.
+  double precision = 1e-3;
+  double absolute_precision = 0.0;  ///< of the bracket of a minimum, the absolute width; 0 is `precision`
+  std::optional<SearchOrder> order = {};  ///< where none is given: best first to minimise, else depth first
   Bisector bisector = Bisector::smear;
   unsigned threads = 1;
   double time_limit = 0.0;    ///< seconds; 0 is none

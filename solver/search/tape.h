@@ -79,6 +79,8 @@ class TapeRun {
   /// Starts on a box, whose intervals the registers of the variables then are.
   void start(std::span<const Interval> box);
   [[nodiscard]] const Interval& variable(std::size_t v) const { return registers_[v]; }
+  /// What is known of a register: of an expression, since start(), where a relation that has it was revised.
+  [[nodiscard]] const Interval& at(std::uint32_t reg) const { return registers_[reg]; }
 
   /// HC4-revise of "root i lies in `wanted`" on the domains that the registers hold since start(); false when
   /// it nowhere can.

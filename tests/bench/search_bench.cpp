@@ -33,6 +33,8 @@ int main(int argc, char** argv) {
     models.push_back(file.path());
   std::sort(models.begin(), models.end());
   for (const auto& model : models) {
+    const lang::Compilation compilation = lang::compile_file(model);
+    if (!compilation.model || compilation.model->goal != lang::SolveItem::Goal::all) continue;
     benchmark::RegisterBenchmark(model.stem().c_str(), solve_all, model.string())
         ->Arg(1)
         ->Arg(2)

@@ -9,6 +9,8 @@
 //   // volume: A 3.14 <= 0.5           the volume of the set is enclosed, within 0.5
 //   // infeasible                      no solution exists, and that is found
 //   // found: 4 unique                 of `solve all`: so many boxes have that certificate
+//   // minimum: -17 +- 1e-6            of an optimisation: its bracket, no wider, meets -17 +- 1e-6
+//   // minimum: none                   and nothing is feasible
 //   // boundary: <= 0.018              of `solve pave`: the boundary's volume
 //   // inside: 9.41 .. 9.43            of `solve pave`: what is proven to be inside has a volume between these
 // is solved, and its answer has to hold the solution and be no wider.
@@ -225,6 +227,48 @@ TEST(Solutions, ArePaved) {
     }
   }
   EXPECT_GE(checked, 5U);
+}
+
+void expect_optimum(const CompiledModel& model, const std::string& middle, const std::string& radius) {
+  SearchOptions options;
+  options.precision = model.precision;
+  options.threads = 2;
+  const Result result = model.goal == SolveItem::Goal::minimize
+                            ? model.problem->minimize(*model.objective, options)
+                            : model.problem->maximize(*model.objective, options);
+  if (middle == "none") {
+    EXPECT_EQ(result.status, Status::infeasible);
+    return;
+  }
+  EXPECT_EQ(result.status, Status::solved);
+  const double optimum = std::stod(middle), most = std::stod(radius);
+  EXPECT_FALSE(meet(*result.objective, Interval(optimum) + Interval(-most, most)).is_empty())
+      << to_string(*result.objective);
+  EXPECT_LE(result.objective->width(), 2 * most);
+  EXPECT_EQ(result.search->solutions.front().certificate, Certificate::exists);
+}
+
+TEST(Solutions, OptimaAreBracketed) {
+  static const std::regex kOptimum(R"(// (?:minimum|maximum): (\S+)(?: \+- (\S+))?)");
+  std::size_t checked = 0;
+  for (const char* folder : {"tests/lang/good", "models/gallery"}) {
+    for (const auto& path : models_in(std::filesystem::path(HCSP_SOURCE_DIR) / folder)) {
+      SCOPED_TRACE(path.filename().string());
+      const std::string text = read_text(path);
+      std::istringstream lines(text);
+      std::smatch match;
+      for (std::string line; std::getline(lines, line);) {
+        if (!std::regex_match(line, match, kOptimum)) continue;
+        const Compilation compilation = compile_text({path.string(), text});
+        ASSERT_TRUE(compilation.model.has_value()) << compilation.diagnostics.text();
+        ASSERT_TRUE(is_optimisation(compilation.model->goal));
+        expect_optimum(*compilation.model, match[1], match[2]);
+        ++checked;
+        break;
+      }
+    }
+  }
+  EXPECT_GE(checked, 24U);
 }
 
 }  // namespace

@@ -99,7 +99,8 @@ function fillSolutions(data) {
   const { solutions, boxes, unexplored, cells } = data.search;
   d3.select("#solutions-card").attr("hidden", null);
   d3.select("#solutions-note").text(`${boxes} ${boxes === 1 ? "box" : "boxes"}` + (unexplored ? `, ${unexplored} unexplored` : "") +
-    (solutions.length < boxes ? `, the first ${solutions.length}` : "") + `; ${cells} cells`);
+    (solutions.length < boxes ? `, the first ${solutions.length}` : "") + `; ${cells} cells` +
+    (data.objective ? `; objective in [${data.objective.join(", ")}]` : ""));
   const table = d3.select("#solutions");
   table.append("thead").append("tr").selectAll("th").data(["", "certificate", ...data.variables.map((v) => v.name)]).join("th").text((d) => d);
   const sides = (each) => each.map(([lo, hi]) => textOfSide([number(lo), number(hi)])).join(", ");
