@@ -82,6 +82,12 @@ VectorVariable Problem::matrix(std::string name, std::size_t rows, const Box& do
   return matrix;
 }
 
+void Problem::set_certain_domain(VariableId id, const Interval& certain) {
+  require(leq(certain, impl_->graph.initial<Interval>(id)),
+          "Problem: the certain domain {} is not in the domain", to_string(certain));
+  impl_->certain[id] = certain;
+}
+
 void Problem::place_in_array(VariableId element, std::string array, std::vector<int> indices) {
   impl_->shapes[element].array = std::move(array);
   impl_->shapes[element].indices = std::move(indices);
@@ -92,7 +98,9 @@ Expr Problem::component(VectorVariable x, std::size_t i) {
   return impl_->component(x, i);
 }
 
-Expr Problem::constant(const Interval& value) { return {impl_->dag, impl_->dag.constant(value)}; }
+Expr Problem::constant(const Interval& value, std::uint64_t origin) {
+  return {impl_->dag, impl_->dag.constant(value, origin)};
+}
 Expr Problem::unknown_constant(const Interval& value) { return {impl_->dag, impl_->dag.own_constant(value)}; }
 Expr Problem::operator()(RealVariable x) { return impl_->input(Input::Kind::real, x.id, 0); }
 Expr Problem::operator()(IntegerVariable x) { return impl_->input(Input::Kind::real, x.id, 0); }

@@ -82,6 +82,9 @@ class Problem {
   VectorVariable vector(std::string name, const Box& domain);
   /// A matrix, as the vector of its components row after row.
   VectorVariable matrix(std::string name, std::size_t rows, const Box& domain);
+  /// Declares what of a real's domain, or a component's, certainly belongs to it, where the ends are numbers
+  /// that no double holds: a proof of a solution keeps to that. Otherwise all of it does.
+  void set_certain_domain(VariableId id, const Interval& certain);
   /// Declares that an unknown is an element of an array, at these indices: results present arrays as one.
   void place_in_array(VariableId element, std::string array, std::vector<int> indices);
   /// The one time line of the problem; to be set before the first tube.
@@ -95,8 +98,9 @@ class Problem {
   SetVariable set(std::string name, std::size_t dim, double precision, const std::optional<Box>& frame = {});
 
   // Expressions over the unknowns.
-  /// An unknown that is one for all constants of these bounds: [value] is a domain.
-  Expr constant(const Interval& value);
+  /// An unknown that is one for all constants of these bounds and this origin: [value] is a domain. Different
+  /// numbers with the same enclosure need different origins.
+  Expr constant(const Interval& value, std::uint64_t origin = 0);
   /// An unknown of its own, somewhere in the interval, that results do not show.
   Expr unknown_constant(const Interval& value);
   Expr operator()(RealVariable x);

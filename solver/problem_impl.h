@@ -52,6 +52,7 @@ struct Problem::Impl {
   std::map<std::pair<VariableId, double>, SetVariable> refinements;  // by the finer grid's precision
   std::set<std::string> hidden_names;
   std::vector<NodeId> relations;                  // those that hold whatever else does
+  std::map<VariableId, Interval> certain;         // domains whose ends are no doubles: what is inside of them
   std::set<VariableId> whole;                     // the whole numbers and Booleans
   std::set<VariableId> bound;                     // by quantifiers over reals
   bool is_system = true;                          // nothing but relations and whole numbers was stated

@@ -21,12 +21,15 @@ struct SearchView {
   std::vector<System::Unknown> unknowns;
   std::map<VariableId, std::size_t> place_of;
 
-  SearchView(const ProblemView& view, const std::vector<Input>& inputs, const std::set<VariableId>& whole)
+  SearchView(const ProblemView& view, const std::vector<Input>& inputs, const std::set<VariableId>& whole,
+             const std::map<VariableId, Interval>& certain)
       : problem(view) {
     for (const Input& input : inputs) {
       place_of.emplace(input.variable, unknowns.size());
       unknowns.push_back(
           {input, view.graph.initial<Interval>(input.variable), whole.contains(input.variable)});
+      const auto known = certain.find(input.variable);
+      if (known != certain.end()) unknowns.back().certain = known->second;
     }
   }
 
@@ -89,7 +92,7 @@ Result Problem::solve_all(const SearchOptions& options) {
   require(is_system(), "Problem: solve_all() is for relations between reals");
   require(options.precision > 0, "Problem: a precision of {}", options.precision);
   const double started = options.clock();
-  const SearchView view(impl_->view(), inputs_of(impl_->dag, impl_->relations), impl_->whole);
+  const SearchView view(impl_->view(), inputs_of(impl_->dag, impl_->relations), impl_->whole, impl_->certain);
   const System system(impl_->dag, impl_->relations, view.unknowns);
   const SearchAnswer answer = branch_and_prune(system, options);
   Result result = result_of(view, answer.found, answer.unexplored, answer.cells);
@@ -105,7 +108,7 @@ Result Problem::minimize(Expr objective, const SearchOptions& options) {
   const double started = options.clock();
   std::vector<NodeId> all = impl_->relations;
   all.push_back(node);
-  const SearchView view(impl_->view(), inputs_of(impl_->dag, all), impl_->whole);
+  const SearchView view(impl_->view(), inputs_of(impl_->dag, all), impl_->whole, impl_->certain);
   const Input value{Input::Kind::real, static_cast<VariableId>(impl_->kinds.size()), 0, 0};
   const Minimisation problem(impl_->dag, node, impl_->relations, view.unknowns, value);
   const MinimumAnswer answer = branch_and_bound(problem, options);

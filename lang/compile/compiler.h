@@ -142,8 +142,12 @@ class Compiler {
   enum class OfTime : std::uint8_t { one_truth, every_instant, this_instant };
   OfTime of_time_ = OfTime::one_truth;
   bool in_zone_ = false;  // what is evaluated speaks of the point of a zone
-  std::unordered_map<const Expr*, std::optional<Box>> domains_;  // as they were stated
-  std::string constraint_;                                       // the name of the constraint at hand
+  struct StatedDomain {
+    Box box, certain;
+  };
+  std::optional<StatedDomain> evaluate_domain(const Expr& expr);
+  std::unordered_map<const Expr*, std::optional<StatedDomain>> domains_;
+  std::string constraint_;                      // the name of the constraint at hand
   std::unordered_map<std::string, int> names_;  // of all constraints: how often they were asked for
 };
 

@@ -307,20 +307,37 @@ std::optional<Unknowns::Handle> Compiler::make_plain(const Symbol& symbol, const
                                                      std::size_t element) {
   const Type& type = symbol.type;
   if (type.is(Type::Kind::boolean)) return problem_->boolean(name);
-  Box box(static_cast<Eigen::Index>(type.components()));
+  Box box(static_cast<Eigen::Index>(type.components())), certain = box;
   if (const Expr* domain = stated_domain(symbol)) {
     // A domain of one element serves them all.
     auto& stated = domains_[domain];
-    if (!stated) stated = evaluator_.box(*domain);
+    if (!stated) stated = evaluate_domain(*domain);
     if (!stated) return {};
-    const bool is_of_all = static_cast<std::size_t>(stated->dim()) == type.terms();
-    const std::size_t first = is_of_all ? element * type.components() : 0;
-    for (Eigen::Index i = 0; i < box.dim(); ++i) box[i] = (*stated)[static_cast<Eigen::Index>(first) + i];
+    const bool is_of_all = static_cast<std::size_t>(stated->box.dim()) == type.terms();
+    const auto first = static_cast<Eigen::Index>(is_of_all ? element * type.components() : 0);
+    for (Eigen::Index i = 0; i < box.dim(); ++i) {
+      box[i] = stated->box[first + i];
+      certain[i] = stated->certain[first + i];
+    }
   }
-  if (type.is_matrix()) return problem_->matrix(name, type.dim, box);
-  if (type.dim != 0) return problem_->vector(name, box);
-  if (type.whole) return problem_->integer(name, box[0]);
-  return problem_->real(name, box[0]);
+  if (type.whole && type.dim == 0) return problem_->integer(name, box[0]);
+  const auto made = [&](auto unknown) -> Unknowns::Handle {
+    for (Eigen::Index i = 0; i < box.dim(); ++i) {
+      if (!(certain[i] == box[i]))
+        problem_->set_certain_domain(unknown.id + static_cast<VariableId>(i), certain[i]);
+    }
+    return unknown;
+  };
+  if (type.is_matrix()) return made(problem_->matrix(name, type.dim, box));
+  if (type.dim != 0) return made(problem_->vector(name, box));
+  return made(problem_->real(name, box[0]));
+}
+
+std::optional<Compiler::StatedDomain> Compiler::evaluate_domain(const Expr& expr) {
+  auto box = evaluator_.box(expr);
+  auto certain = box ? evaluator_.certain_box(expr) : std::nullopt;
+  if (!certain) return {};
+  return StatedDomain{std::move(*box), std::move(*certain)};
 }
 
 std::optional<double> Compiler::precision_of(const Expr& expr) {

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <charconv>
 #include <cmath>
 #include <cstdint>
@@ -138,21 +139,64 @@ std::optional<Decimal> multiply(const Decimal& a, const Decimal& b) {
   return Decimal::trimmed(product, a.exponent_ + b.exponent_);
 }
 
+namespace {
+
+// FNV-1a over words, each spread by the finalizer of MurmurHash3. Never 0.
+class Identity {
+ public:
+  void add(std::uint64_t word) {
+    word = (word ^ (word >> 33)) * 0xff51afd7ed558ccdU;
+    word = (word ^ (word >> 33)) * 0xc4ceb9fe1a85ec53U;
+    value_ = (value_ ^ word ^ (word >> 33)) * 0x100000001b3U;
+  }
+  void add(std::string_view text) {
+    for (const char c : text) add(static_cast<std::uint64_t>(static_cast<unsigned char>(c)));
+  }
+  [[nodiscard]] std::uint64_t value() const { return std::max<std::uint64_t>(value_, 1); }
+
+ private:
+  std::uint64_t value_ = 0xcbf29ce484222325U;
+};
+
+}  // namespace
+
+Number Number::of(const Interval& enclosure, std::string_view function,
+                  std::initializer_list<Number> arguments) {
+  Identity identity;
+  identity.add(function);
+  for (const Number& argument : arguments) {
+    if (argument.identity() == 0) return of(enclosure);
+    identity.add(argument.identity());
+  }
+  return of(enclosure, identity.value());
+}
+
+std::uint64_t Number::identity() const {
+  if (origin != 0 || (!exact && !enclosure.is_point())) return origin;
+  Identity identity;
+  if (exact) {
+    identity.add(exact->text());
+  } else {
+    identity.add(std::bit_cast<std::uint64_t>(enclosure.lo()));
+  }
+  return identity.value();
+}
+
 std::optional<Number> Number::parse(std::string_view text) {
   if (const auto decimal = Decimal::parse(text)) return of(*decimal);
   if (!is_decimal(text)) return {};
-  return of(Interval::of_decimal(text));
+  return of(Interval::of_decimal(text), text, {});
 }
 
 Number operator-(const Number& a) {
-  return a.exact ? Number::of(a.exact->negated()) : Number::of(-a.enclosure);
+  return a.exact ? Number::of(a.exact->negated()) : Number::of(-a.enclosure, "-", {a});
 }
 
 Number operator+(const Number& a, const Number& b) {
   if (a.exact && b.exact) {
     if (const auto sum = add(*a.exact, *b.exact)) return Number::of(*sum);
   }
-  return Number::of(a.enclosure + b.enclosure);
+  return Number::of(a.enclosure + b.enclosure, "+", {a, b});
 }
 
 Number operator-(const Number& a, const Number& b) { return a + -b; }
@@ -161,9 +205,11 @@ Number operator*(const Number& a, const Number& b) {
   if (a.exact && b.exact) {
     if (const auto product = multiply(*a.exact, *b.exact)) return Number::of(*product);
   }
-  return Number::of(a.enclosure * b.enclosure);
+  return Number::of(a.enclosure * b.enclosure, "*", {a, b});
 }
 
-Number operator/(const Number& a, const Number& b) { return Number::of(a.enclosure / b.enclosure); }
+Number operator/(const Number& a, const Number& b) {
+  return Number::of(a.enclosure / b.enclosure, "/", {a, b});
+}
 
 }  // namespace hcsp::lang

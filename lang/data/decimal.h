@@ -3,6 +3,8 @@
 // decimals are kept exactly for as long as they fit: 1700000000.3 - 1700000000 is 0.3, not a double near it.
 #pragma once
 
+#include <cstdint>
+#include <initializer_list>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -22,6 +24,8 @@ class Decimal {
   [[nodiscard]] double nearest() const;
   /// The tightest interval around the number.
   [[nodiscard]] Interval enclosure() const;
+  [[nodiscard]] bool is_whole() const { return exponent_ >= 0; }
+  [[nodiscard]] bool is_odd() const { return exponent_ == 0 && mantissa_ % 2 != 0; }
   /// The value if it is a whole number that an int can hold.
   [[nodiscard]] std::optional<int> as_int() const;
 
@@ -44,9 +48,18 @@ class Decimal {
 struct Number {
   Interval enclosure;
   std::optional<Decimal> exact;
+  /// How a number came to be that is known by its enclosure alone: equal origins, equal numbers. 0 tells
+  /// nothing.
+  std::uint64_t origin = 0;
 
   static Number of(const Decimal& decimal) { return {decimal.enclosure(), decimal}; }
-  static Number of(const Interval& enclosure) { return {enclosure, {}}; }
+  static Number of(const Interval& enclosure, std::uint64_t origin = 0) { return {enclosure, {}, origin}; }
+  /// What a function makes of numbers.
+  static Number of(const Interval& enclosure, std::string_view function,
+                   std::initializer_list<Number> arguments);
+  /// Different for different numbers, but for a chance of 2^-64 that two of one enclosure meet; 0 where
+  /// nothing is known.
+  [[nodiscard]] std::uint64_t identity() const;
   /// The number written in a decimal literal; none when the text is no decimal number.
   static std::optional<Number> parse(std::string_view text);
   /// The nearest double, as instants and precisions are read.

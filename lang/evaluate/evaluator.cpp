@@ -101,6 +101,24 @@ std::optional<Box> Evaluator::box(const Expr& expr) {
   return box;
 }
 
+std::optional<Box> Evaluator::certain_box(const Expr& expr) {
+  const auto between = [](double lo, double hi) { return lo <= hi ? Interval(lo, hi) : Interval::empty(); };
+  const auto enclosure = [](const Term& term) { return std::get<Number>(term).enclosure; };
+  DomainValue found;
+  if (model_.type(expr).is(Type::Kind::real)) {
+    for (const Term& term : value(expr)) found.push_back({term, term});
+  } else {
+    found = domain(expr);
+  }
+  if (found.empty()) return {};
+  Box box(static_cast<Eigen::Index>(found.size()));
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    box[static_cast<Eigen::Index>(i)] = between(found[i].lo ? enclosure(*found[i].lo).hi() : -kInfinity,
+                                                found[i].hi ? enclosure(*found[i].hi).lo() : kInfinity);
+  }
+  return box;
+}
+
 void Evaluator::bind(std::uint32_t local, Value value) { locals_[local] = std::move(value); }
 
 // What is stated as a constraint is no value: a connective of it, a relation between sets, a derivative. A
@@ -186,7 +204,7 @@ std::optional<hcsp::Expr> Unknowns::component(const Handle& handle, std::size_t 
 Value Evaluator::name(const Expr& expr) {
   const Reference reference = model_.reference(expr);
   if (reference.local != Reference::kNoLocal) return locals_[reference.local];
-  if (reference.symbol == nullptr) return {Number::of(pi())};
+  if (reference.symbol == nullptr) return {Number::of(pi(), "pi", {})};
   return symbol(*reference.symbol);
 }
 

@@ -63,6 +63,8 @@ class Evaluator {
   bool for_each(const Expr& expr, const std::function<bool(const std::vector<int>& at)>& body);
   /// A domain or a value, as a box of its components.
   std::optional<Box> box(const Expr& expr);
+  /// The points that certainly belong to it: no end is rounded outward. May be empty.
+  std::optional<Box> certain_box(const Expr& expr);
 
   /// Reals, vectors and relations, at the time at hand.
   Value value(const Expr& expr);

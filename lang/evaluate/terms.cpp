@@ -32,11 +32,17 @@ constexpr std::array kScalarFunctions{
 
 const Number* number_in(const Term& term) { return std::get_if<Number>(&term); }
 
+/// A node that is the same for one number wherever it stands, and no other's.
+NodeId constant_of(Dag& dag, const Number& number) {
+  const bool is_known = number.enclosure.is_point() || number.identity() != 0;
+  return is_known ? dag.constant(number.enclosure, number.identity()) : dag.own_constant(number.enclosure);
+}
+
 /// The operands as expressions; one of them is one already.
 std::pair<hcsp::Expr, hcsp::Expr> expressions(const Term& a, const Term& b) {
   const auto lifted = [](const Term& term, Dag& dag) {
     const Number* number = number_in(term);
-    return number == nullptr ? std::get<hcsp::Expr>(term) : hcsp::Expr(dag, dag.constant(number->enclosure));
+    return number == nullptr ? std::get<hcsp::Expr>(term) : hcsp::Expr(dag, constant_of(dag, *number));
   };
   Dag& dag = std::get<hcsp::Expr>(number_in(a) == nullptr ? a : b).dag();
   return {lifted(a, dag), lifted(b, dag)};
@@ -47,18 +53,29 @@ Term whole_power(const Term& base, int exponent) {
   if (exponent == 2) return scalar_function(BuiltIn::sqr, base);
   const Number* number = number_in(base);
   if (number == nullptr) return pown(std::get<hcsp::Expr>(base), exponent);
-  const Number rounded = Number::of(pown(number->enclosure, exponent));
+  const Number rounded =
+      Number::of(pown(number->enclosure, exponent), "^", {*number, Number::of(Interval(exponent))});
   if (!number->exact || exponent < 0 || exponent > kMostExactFactors) return rounded;
   Number product = *Number::parse("1");
   for (int i = 0; i < exponent; ++i) product = product * *number;
   return product.exact ? product : rounded;
 }
 
+/// A whole exponent that no int holds: |x|^n, or x |x|^(n - 1) where n is odd.
+Term large_power(const Term& base, const Number& exponent) {
+  const Term size = scalar_function(BuiltIn::abs, base);
+  if (!exponent.exact->is_odd()) return power_of(size, Number::of(exponent.enclosure, "large", {exponent}));
+  const Number rest = exponent - *Number::parse("1");
+  return operate(Operator::multiply, base, power_of(size, Number::of(rest.enclosure, "large", {rest})));
+}
+
 }  // namespace
 
 hcsp::Expr expression_of(Problem& problem, const Term& term) {
-  if (const Number* number = number_in(term)) return problem.constant(number->enclosure);
-  return std::get<hcsp::Expr>(term);
+  const Number* number = number_in(term);
+  if (number == nullptr) return std::get<hcsp::Expr>(term);
+  Dag& dag = problem.constant(Interval(0.0)).dag();
+  return {dag, constant_of(dag, *number)};
 }
 
 std::optional<int> whole_value(const Number& number) {
@@ -98,7 +115,8 @@ Term scalar_function(BuiltIn function, const Term& a) {
   const Number* number = number_in(a);
   if (number == nullptr) return entry.of_expression(std::get<hcsp::Expr>(a));
   if (function == BuiltIn::sqr && number->exact) return *number * *number;
-  return Number::of(entry.of_number(number->enclosure));
+  return Number::of(entry.of_number(number->enclosure), fmt::format("f{}", static_cast<int>(function)),
+                    {*number});
 }
 
 Term scalar_function(BuiltIn function, const Term& a, const Term& b) {
@@ -113,13 +131,15 @@ Term scalar_function(BuiltIn function, const Term& a, const Term& b) {
     }
   };
   if (number_in(a) != nullptr && number_in(b) != nullptr)
-    return Number::of(apply(number_in(a)->enclosure, number_in(b)->enclosure));
+    return Number::of(apply(number_in(a)->enclosure, number_in(b)->enclosure),
+                      fmt::format("f{}", static_cast<int>(function)), {*number_in(a), *number_in(b)});
   const auto [u, v] = expressions(a, b);
   return apply(u, v);
 }
 
 Term root_of(const Term& a, int degree) {
-  if (const Number* number = number_in(a)) return Number::of(rootn(number->enclosure, degree));
+  if (const Number* number = number_in(a))
+    return Number::of(rootn(number->enclosure, degree), "root", {*number, Number::of(Interval(degree))});
   return root(std::get<hcsp::Expr>(a), degree);
 }
 
@@ -127,8 +147,9 @@ Term power_of(const Term& base, const Term& exponent) {
   const Number* number = number_in(exponent);
   const auto whole = number != nullptr ? whole_value(*number) : std::nullopt;
   if (whole) return whole_power(base, *whole);
+  if (number != nullptr && number->exact && number->exact->is_whole()) return large_power(base, *number);
   if (number != nullptr && number_in(base) != nullptr)
-    return Number::of(pow(number_in(base)->enclosure, number->enclosure));
+    return Number::of(pow(number_in(base)->enclosure, number->enclosure), "^", {*number_in(base), *number});
   if (number != nullptr && number->enclosure == Interval(0.5)) return scalar_function(BuiltIn::sqrt, base);
   const auto [u, v] = expressions(base, exponent);
   return pow(u, v);

@@ -173,7 +173,9 @@ Term Evaluator::chosen(const Value& arguments) {
     return Number::of(
         join(std::get<Number>(arguments[1]).enclosure, std::get<Number>(arguments[2]).enclosure));
   const auto expr = [&](const Term& term) { return expression_of(problem_, term); };
-  return if_then_else(expr(arguments[0]) <= expr(zero), expr(arguments[1]), expr(arguments[2]));
+  const hcsp::Expr chosen =
+      if_then_else(expr(arguments[0]) <= expr(zero), expr(arguments[1]), expr(arguments[2]));
+  return chosen + expr(zero) * expr(arguments[0]);  // undefined where the first is
 }
 
 // sin(x)/x, and 1 at 0.

@@ -45,7 +45,7 @@ bool Compiler::state(const Statement& statement) {
 
 // A new name on the left is one for what is on the right.
 bool Compiler::is_definition(const Relation& relation) {
-  return relation.op == Operator::equal && relation.left->kind == Kind::name &&
+  return relation.op == Operator::equal && relation.left->kind == Kind::name && relation.left->text != "pi" &&
          evaluator_.scope().find(relation.left->text) == nullptr;
 }
 

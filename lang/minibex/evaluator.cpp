@@ -169,7 +169,7 @@ const Tensor* Evaluator::visible(const Expr& name) {
 
 Tensor Evaluator::name(const Expr& expr) {
   if (const Tensor* found = visible(expr)) return as_wanted(expr, *found);
-  if (expr.text == "pi") return Term(Number::of(pi()));
+  if (expr.text == "pi") return Term(Number::of(pi(), "pi", {}));
   if (expr.text == "oo") {
     diagnostics_.report(Code::misplaced_infinity, expr.range);
     return {};

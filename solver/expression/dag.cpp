@@ -16,16 +16,19 @@ NodeId Dag::intern(const DagNode& node) {
   return place->second;
 }
 
-NodeId Dag::constant(const Interval& value) {
+NodeId Dag::constant(const Interval& value, std::uint64_t origin) {
   DagNode node;
   node.value = value;
+  // A number that is known exactly is what it is, wherever it comes from.
+  if (!value.is_point())
+    node.input = {{}, 0, static_cast<std::uint32_t>(origin), static_cast<std::uint32_t>(origin >> 32)};
   return intern(node);
 }
 
 NodeId Dag::own_constant(const Interval& value) {
   DagNode node;
   node.value = value;
-  node.input.component = ++own_constants_;  // only to tell it from others
+  node.input = {{}, 1, ++own_constants_, 0};  // only to tell it from others
   return intern(node);
 }
 

@@ -87,7 +87,9 @@ class Dag {
  public:
   /// An unknown that is the same wherever the constant stands: [value] is a domain, not a set of values to
   /// try.
-  NodeId constant(const Interval& value);
+  /// Two numbers may have one enclosure: constants of different origins, numbers that their writer gives
+  /// them, are different unknowns.
+  NodeId constant(const Interval& value, std::uint64_t origin = 0);
   /// Another unknown than every other constant, though the bounds be the same.
   NodeId own_constant(const Interval& value);
   NodeId input(const Input& input);

@@ -63,7 +63,7 @@ class Explorer {
     std::vector<Interval>& box = node.box;
     ++cells;
     if (!contract(box, node.cut_last)) return;
-    if (is_inner(box)) return keep(box, Certificate::inner, Reason::proven);
+    if (is_inner(box)) return keep_inner(box);
     const std::optional<std::uint32_t> cut = choose_cut(box, node.cut_last);
     if (!cut) return keep_small(box);
     const double at = cut_of(box[*cut]);
@@ -176,13 +176,29 @@ class Explorer {
     return choices_.all_hold(box);
   }
 
+  // The ends of domains that no double is are left aside.
+  void keep_inner(std::vector<Interval> box) {
+    for (std::size_t v = 0; v < box.size(); ++v) {
+      const Interval whole = box[v], certain = meet(whole, system_.certain[v]);
+      if (certain == whole) continue;
+      if (certain.is_empty()) return keep(box, Certificate::none, Reason::boundary);
+      for (const Interval& end :
+           {Interval::raw(whole.lo(), certain.lo()), Interval::raw(certain.hi(), whole.hi())}) {
+        box[v] = end;
+        if (!end.is_point()) keep(box, Certificate::none, Reason::boundary);
+      }
+      box[v] = certain;
+    }
+    keep(box, Certificate::inner, Reason::proven);
+  }
+
   // Newton proved that its enclosure holds the one solution of the equations, or of some of them, near a box.
   // It may be the neighbour's, or no solution of the rest.
   void keep_alone() {
     std::vector<Interval> box = newton_.enclosure();
     bool is_within = whole_where_asked(box);
     for (std::size_t v = 0; v < box.size(); ++v) {
-      is_within = is_within && leq(box[v], system_.domains[v]);
+      is_within = is_within && leq(box[v], system_.certain[v]);
       box[v] = meet(box[v], system_.domains[v]);
       if (box[v].is_empty()) return;
     }
@@ -200,7 +216,7 @@ class Explorer {
     if (newton_.prove_alone(box, options_.precision)) return keep_alone();
     if (equations >= box.size())
       return keep(box, Certificate::none, equations > box.size() ? Reason::overdetermined : Reason::singular);
-    if (newton_.prove_some(box) && lies_in(newton_.enclosure(), system_.domains) &&
+    if (newton_.prove_some(box) && lies_in(newton_.enclosure(), system_.certain) &&
         whole_where_asked(newton_.enclosure()) && all_hold(newton_.enclosure()))
       return keep(newton_.enclosure(), Certificate::exists, Reason::proven);
     keep(box, Certificate::none, Reason::manifold);

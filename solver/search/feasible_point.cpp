@@ -41,7 +41,7 @@ void FeasiblePoint::put_in_domains(std::vector<double>& point) const {
   constexpr double kNext = 1e-9;
   for (std::size_t v = 0; v < point.size(); ++v) {
     double& x = point[v];
-    const Interval& domain = system_.domains[v];
+    const Interval& domain = system_.certain[v];
     if (system_.is_whole[v] != 0) x = std::round(x);
     const double next = kNext * std::max(std::abs(x), 1.0);
     if (x < domain.lo() + next) x = domain.lo();
@@ -53,7 +53,7 @@ void FeasiblePoint::put_in_domains(std::vector<double>& point) const {
 // How far an unknown can move before it leaves its domain, where that is little.
 double FeasiblePoint::room(std::size_t v, double x) const {
   if (system_.is_whole[v] != 0) return 0.0;
-  const Interval& domain = system_.domains[v];
+  const Interval& domain = system_.certain[v];
   return std::min({std::max(std::abs(x), 1.0), x - domain.lo(), domain.hi() - x});
 }
 
@@ -172,7 +172,7 @@ bool FeasiblePoint::holds() {
   for (std::size_t v = 0; v < box_.size(); ++v) {
     const bool is_whole =
         system_.is_whole[v] == 0 || (box_[v].is_point() && std::round(box_[v].lo()) == box_[v].lo());
-    if (!is_whole || !leq(box_[v], system_.domains[v])) return false;
+    if (!is_whole || !leq(box_[v], system_.certain[v])) return false;
   }
   run_.evaluate(box_, false);
   std::size_t equation = 0;

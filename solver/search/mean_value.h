@@ -12,9 +12,10 @@ namespace hcsp {
 
 inline double middle_of(const Interval& x) { return 0.5 * x.lo() + 0.5 * x.hi(); }
 inline double width_of(const Interval& x) { return x.hi() - x.lo(); }
+/// Whether doubles hold the widths of all sides.
 inline bool is_bounded(const std::vector<Interval>& box) {
   for (const Interval& x : box) {
-    if (!x.is_bounded()) return false;
+    if (!(width_of(x) < kInfinity)) return false;
   }
   return true;
 }

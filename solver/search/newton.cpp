@@ -68,6 +68,7 @@ bool Newton::precondition() {
 // One step on a box; the image is met with it.
 Newton::Outcome Newton::step(const std::vector<Interval>& box, std::vector<Interval>& image) {
   const std::size_t n = box.size(), size = rows_.size();
+  if (!is_bounded(box)) return Outcome::nothing;
   forms_.expand_over(box);
   const auto has_form = [&](std::uint32_t e) { return forms_.has_form(e); };
   if (!std::all_of(rows_.begin(), rows_.end(), has_form) || !precondition()) return Outcome::nothing;

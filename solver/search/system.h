@@ -4,6 +4,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "domains/interval/interval.h"
@@ -30,7 +31,8 @@ struct System {
     Input input;
     Interval domain;
     bool is_whole = false;
-    bool is_given = false;  ///< for every value of it: equations are never solved for it
+    bool is_given = false;                 ///< for every value of it: equations are never solved for it
+    std::optional<Interval> certain = {};  ///< what of the domain certainly belongs to it; all by default
   };
 
   /// Sorts the conjuncts of relations between the unknowns; adds nodes to the graph, which outlives the
@@ -43,6 +45,7 @@ struct System {
   Dag& dag;
   std::vector<NodeId> stated;          ///< the relations as they were given
   std::vector<Interval> domains;       ///< by unknown
+  std::vector<Interval> certain;       ///< by unknown: where there may be proofs that it has a value
   std::vector<std::uint8_t> is_whole;  ///< by unknown
   std::vector<std::uint8_t> is_given;  ///< by unknown
   std::vector<Relation> relations;     ///< by root of the tape
