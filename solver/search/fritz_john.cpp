@@ -13,11 +13,24 @@ FritzJohn::FritzJohn(const Minimisation& problem)
     : problem_(problem), run_(*problem.with_value.tape), choices_(problem.constraints) {
   slopes_.assign(problem.with_value.relations.size(),
                  std::vector<Interval>(problem.with_value.size(), Interval::raw(0.0, 0.0)));
+  const auto is_equation = [](const System::Relation& relation) { return relation.is_equation(); };
+  equations_ = static_cast<std::size_t>(
+      std::count_if(problem.constraints.relations.begin(), problem.constraints.relations.end(), is_equation));
 }
 
+// An equation's multiplier has either sign: each choice of signs is a program, since with both in one they
+// would cancel.
 bool FritzJohn::may_hold_minimiser(const std::vector<Interval>& box) {
-  if (!expand_around(box)) return true;
-  collect_multipliers();
+  constexpr std::size_t kMostEquations = 3;
+  if (equations_ > kMostEquations || !expand_around(box)) return true;
+  for (std::uint32_t signs = 0; signs >> equations_ == 0; ++signs) {
+    if (may_have_multipliers(signs)) return true;
+  }
+  return false;
+}
+
+bool FritzJohn::may_have_multipliers(std::uint32_t signs) {
+  collect_multipliers(signs);
   program_.start(std::vector<Interval>(multipliers_.size(), Interval::raw(0.0, 1.0)));
   std::vector<LinearTerm> sum;
   for (std::uint32_t k = 0; k < multipliers_.size(); ++k) sum.push_back({k, 1.0});
@@ -45,8 +58,8 @@ bool FritzJohn::expand_around(const std::vector<Interval>& box) {
   return problem_.constraints.choices.empty() || choices_.all_hold({around_.begin(), around_.end() - 1});
 }
 
-// Of an equation two, since its multiplier has either sign; of an inequality that holds all over, none.
-void FritzJohn::collect_multipliers() {
+// Of an equation with the sign of the next bit; of an inequality that holds all over, none.
+void FritzJohn::collect_multipliers(std::uint32_t signs) {
   multipliers_.clear();
   for (std::uint32_t i = 0; i < slopes_.size(); ++i) {
     const bool is_equation = i > 0 && problem_.with_value.relations[i].is_equation();
@@ -56,8 +69,9 @@ void FritzJohn::collect_multipliers() {
       if (v != problem_.value() && slopes_[i][v].is_bounded()) most = std::max(most, slopes_[i][v].mag());
     }
     const double scale = most > 0.0 ? std::ldexp(1.0, -std::clamp(std::ilogb(most), -500, 500)) : 1.0;
-    multipliers_.push_back({i, i == 0 ? -1.0 : 1.0, scale});
-    if (is_equation) multipliers_.push_back({i, -1.0, scale});
+    const bool is_turned = i == 0 || (is_equation && (signs & 1U) != 0);
+    multipliers_.push_back({i, is_turned ? -1.0 : 1.0, scale});
+    if (is_equation) signs >>= 1U;
   }
 }
 

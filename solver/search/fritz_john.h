@@ -31,7 +31,8 @@ class FritzJohn {
     double scale;  // that brings the slopes to a size of about 1
   };
   bool expand_around(const std::vector<Interval>& box);
-  void collect_multipliers();
+  bool may_have_multipliers(std::uint32_t signs);
+  void collect_multipliers(std::uint32_t signs);
   void add_row(std::uint32_t v);
 
   const Minimisation& problem_;
@@ -41,6 +42,7 @@ class FritzJohn {
   std::vector<Interval> around_;
   std::vector<std::vector<Interval>> slopes_;  // by relation of with_value
   std::vector<Multiplier> multipliers_;
+  std::size_t equations_ = 0;  // among the relations
 };
 
 }  // namespace hcsp
