@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Operations of one operand as curves: their values, slopes and the way they bend, for lines that enclose
-// them.
+// Operations of one operand as curves: their values, slopes and the way they bend, for lines and chords that
+// enclose them.
 #pragma once
 
-#include <optional>
-
-#include "solver/search/tape.h"
+#include "solver/expression/dag.h"
 
 namespace hcsp {
 

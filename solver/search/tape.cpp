@@ -6,8 +6,8 @@
 #include <map>
 
 #include "domains/check.h"
-#include "solver/expression/curvature.h"
 #include "solver/expression/operators.h"
+#include "solver/search/curve.h"
 
 namespace hcsp {
 
@@ -46,11 +46,6 @@ Tape::Slope::Kind kind_of(const Dag& dag, NodeId y, NodeId operand, NodeId slope
                  ? Kind::function
                  : Kind::derivative;
   }
-}
-
-// y = op(a) of one operand, or of one and an exponent.
-Interval forward_of(Op op, const Interval& a, const Interval& exponent) {
-  return with_operator(op, [&](auto known) { return decltype(known)::type::forward(a, exponent, exponent); });
 }
 
 }  // namespace
@@ -275,19 +270,19 @@ Interval TapeRun::slope_from_center(const Tape::Slope& slope) const {
 // The slope of the chord from the centre rises with its other end where the function is convex, and falls
 // where it is concave.
 Interval TapeRun::slope_of_function(const Tape::Slope& slope) const {
-  const Interval &a = registers_[slope.a], &exponent = registers_[slope.exponent];
-  const Interval& derivative = registers_[slope.value];
-  const int curved = curvature(slope.op, a, exponent, registers_[slope.y]);
-  if (curved == 0) return derivative;
+  const Interval &a = registers_[slope.a], &derivative = registers_[slope.value];
+  const Curve curve{slope.op, registers_[slope.exponent]};
+  const Interval bend = curve.bend(a);
+  const bool is_convex = bend.lo() >= 0.0;
+  if (!is_convex && !(bend.hi() <= 0.0)) return derivative;
   const auto chord_to = [&](double end) {
     const Interval point = Interval::raw(end, end);
-    return up::div(up::sub(forward_of(slope.op, point, exponent), center_[slope.y]),
-                   up::sub(point, center_[slope.a]));
+    return up::div(up::sub(curve.value(point), center_[slope.y]), up::sub(point, center_[slope.a]));
   };
   const Interval at_lo = chord_to(a.lo()), at_hi = chord_to(a.hi());
   if (at_lo.is_empty() || at_hi.is_empty()) return derivative;
   const Interval chords =
-      curved > 0 ? Interval::raw(at_lo.lo(), at_hi.hi()) : Interval::raw(at_hi.lo(), at_lo.hi());
+      is_convex ? Interval::raw(at_lo.lo(), at_hi.hi()) : Interval::raw(at_hi.lo(), at_lo.hi());
   return meet(chords, derivative);
 }
 
