@@ -211,6 +211,23 @@ TEST(Pave, WholeNumbers) {
   EXPECT_LT(paving.boundary_volume, 0.06);
 }
 
+// A domain's whole numbers are those that count, whether the unknown is paved, a parameter or in no relation.
+TEST(Pave, TheBoundsOfWholeNumbersAreRounded) {
+  const auto paved = [](const Interval& domain, bool is_related) {
+    Problem problem("whole");
+    const Expr x = problem(problem.real("x", Interval(0.0, 10.0)));
+    const Expr k = problem(problem.integer("k", domain));
+    problem.constrain("c", is_related ? x >= Interval(3.0) * k : x >= Interval(6.0));
+    return problem.pave({x}, precision(0.1));
+  };
+  const Result one = paved({1.5, 2.5}, true);
+  EXPECT_LE(one.paving->inside_volume, 4.0);
+  EXPECT_GT(one.paving->inside_volume, 3.9);
+  EXPECT_EQ(std::get<Interval>(one["k"]), Interval(2.0));
+  for (const bool is_related : {false, true})
+    EXPECT_EQ(paved({2.2, 2.8}, is_related).status, Status::infeasible) << is_related;
+}
+
 // {x in [0, 1] : there is p with p^2 + x p + y == 0}, the half plane below the parabola.
 TEST(Pave, ForSomeByAnEquation) {
   Plane plane;
