@@ -160,8 +160,12 @@ class Paver {
       const double step = whole.is_bounded() ? kStep * (whole.hi() - whole.lo()) : 0.0;
       const double low = is_whole ? kept.lo() - 1.0 : up::next_down(kept.lo() - step);
       const double high = is_whole ? kept.hi() + 1.0 : up::next_up(kept.hi() + step);
-      if (cut_off_here(whole.lo(), low)) box[v] = Interval::raw(is_whole ? kept.lo() : low, whole.hi());
-      if (cut_off_here(high, whole.hi())) box[v] = Interval::raw(box[v].lo(), is_whole ? kept.hi() : high);
+      const bool cuts_low = !is_whole || are_next(low, kept.lo()),
+                 cuts_high = !is_whole || are_next(kept.hi(), high);
+      if (cuts_low && cut_off_here(whole.lo(), low))
+        box[v] = Interval::raw(is_whole ? kept.lo() : low, whole.hi());
+      if (cuts_high && cut_off_here(high, whole.hi()))
+        box[v] = Interval::raw(box[v].lo(), is_whole ? kept.hi() : high);
     }
     return true;
   }

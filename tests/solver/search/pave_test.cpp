@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -226,6 +227,34 @@ TEST(Pave, TheBoundsOfWholeNumbersAreRounded) {
   EXPECT_EQ(std::get<Interval>(one["k"]), Interval(2.0));
   for (const bool is_related : {false, true})
     EXPECT_EQ(paved({2.2, 2.8}, is_related).status, Status::infeasible) << is_related;
+}
+
+// Beyond 2^53 doubles leave whole numbers out: none of these is lost, and none taken for another.
+TEST(Pave, WholeNumbersThatDoublesLeaveOut) {
+  const auto paved = [](const Interval& domain, const auto& relation) {
+    Problem problem("far");
+    const Expr n = problem(problem.integer("n", domain));
+    problem.constrain("c", relation(n));
+    return *problem.pave({n}, precision(0.1)).paving;
+  };
+  const Interval half(5e16);
+  const auto above = [&](const Expr& n) { return n >= half; };
+  const auto below = [&](const Expr& n) { return n < -half; };
+  const auto near = [](const Expr& n) { return sin(n) > Interval(2.0) || abs(n) <= Interval(3.0); };
+  for (const Paving& paving : {paved({0.0, 1e17}, above), paved({-1e17, 0.0}, below), paved({}, near)}) {
+    double last = 0.0;
+    std::vector<Interval> sides;
+    for_each_box(paving, [&](Kind, std::span<const Interval> box) { sides.push_back(box[0]); });
+    std::sort(sides.begin(), sides.end(),
+              [](const Interval& a, const Interval& b) { return a.lo() < b.lo(); });
+    for (const Interval& side : sides) {
+      EXPECT_LT(side.lo(), kInfinity);
+      EXPECT_GT(side.hi(), -kInfinity);
+      if (&side != &sides.front()) EXPECT_EQ(side.lo() - last, 1.0) << to_string(side);
+      last = side.hi();
+    }
+  }
+  EXPECT_EQ(paved({}, near).inside_volume, 7.0);
 }
 
 // {x in [0, 1] : there is p with p^2 + x p + y == 0}, the half plane below the parabola.
