@@ -386,6 +386,12 @@ TEST(Pave, GoesOnFromEveryCheckpoint) {
   SearchOptions other = precision(0.01);
   other.resume = states.back();
   EXPECT_THROW(paved(other), std::invalid_argument);
+  SearchOptions swapped = precision(0.02);
+  swapped.resume = states.back();
+  Plane plane;
+  const Expr f = plane.x * sin(plane.y) + sqr(plane.x);
+  plane.problem.constrain("c", f <= Interval(1.0));
+  EXPECT_THROW(plane.problem.pave({plane.y, plane.x}, swapped), std::invalid_argument);
 }
 
 TEST(Pave, WrongUseOfIt) {
