@@ -17,7 +17,7 @@ RealVariable Problem::real(std::string name, const Interval& domain) {
 }
 
 IntegerVariable Problem::integer(std::string name, const Interval& domain) {
-  const VariableId id = impl_->add(name, domain, DomainKind::real);
+  const VariableId id = impl_->add(name, whole_numbers_of(domain), DomainKind::real);
   impl_->shapes[id].scalar = Shape::Scalar::whole;
   impl_->whole.insert(id);
   impl_->state(make_integrality_contractor(name + " is whole", id), true);

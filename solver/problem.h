@@ -76,7 +76,7 @@ class Problem {
   // Unknowns. Names are unique: std::invalid_argument otherwise. A domain is what is known before any
   // constraint.
   RealVariable real(std::string name, const Interval& domain = {});
-  /// A whole number: only those of the domain count.
+  /// A whole number: its domain is the whole numbers of this one, and empty where there are none.
   IntegerVariable integer(std::string name, const Interval& domain = {});
   BooleanVariable boolean(std::string name);
   VectorVariable vector(std::string name, const Box& domain);

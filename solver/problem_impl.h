@@ -135,6 +135,17 @@ struct Problem::Impl {
   }
   PointSet point_set_of(const std::vector<Expr>& variables);
 
+  // The relations of a problem of reals as searches take them: those stated, and a false one where a domain
+  // is empty, which no relation need speak of.
+  [[nodiscard]] std::vector<NodeId> relations_of_search() {
+    std::vector<NodeId> all = relations;
+    bool is_possible = true;
+    for (VariableId v = 0; v < kinds.size(); ++v)
+      is_possible = is_possible && !graph.initial<Interval>(v).is_empty();
+    if (!is_possible) all.push_back(dag.constant(kFalse));
+    return all;
+  }
+
   [[nodiscard]] std::shared_ptr<const ItemSet> items_of(const Window& span) const {
     need_line();
     const auto from = line->gate_at(span.from), to = line->gate_at(span.to);

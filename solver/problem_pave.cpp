@@ -68,11 +68,8 @@ PointSet Problem::Impl::point_set_of(const std::vector<Expr>& variables) {
             graph.variable(node.input.variable).name());
     unknowns.push_back(unknown(node.input));
   }
-  bool is_possible = true;
-  for (VariableId v = 0; v < kinds.size(); ++v)
-    is_possible = is_possible && !graph.initial<Interval>(v).is_empty();
-  std::vector<NodeId> all = relations;
-  if (!is_possible || all.empty()) all.push_back(dag.constant(is_possible ? kTrue : kFalse));
+  std::vector<NodeId> all = relations_of_search();
+  if (all.empty()) all.push_back(dag.constant(kTrue));
   NodeId relation = all.front();
   for (std::size_t i = 1; i < all.size(); ++i) relation = dag.apply(Op::logical_and, {relation, all[i]}, 2);
   const Program program(dag, {relation});

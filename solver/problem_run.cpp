@@ -124,9 +124,9 @@ std::optional<Failure> failure_with(const ProblemView& problem, const Propagatio
 }
 
 void tell_failure(const ProblemView& problem, const Failure& failure, Explanation& explanation) {
-  if (failure.contractor)
-    explanation.constraint = problem.graph.contractors()[*failure.contractor]->constraint();
   explanation.variable = name_of(problem, failure.variable);
+  explanation.constraint = failure.contractor ? problem.graph.contractors()[*failure.contractor]->constraint()
+                                              : fmt::format("domain of {}", explanation.variable);
   explanation.time = failure.time;
 }
 

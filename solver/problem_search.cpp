@@ -92,8 +92,9 @@ Result Problem::solve_all(const SearchOptions& options) {
   require(is_system(), "Problem: solve_all() is for relations between reals");
   require(options.precision > 0, "Problem: a precision of {}", options.precision);
   const double started = options.clock();
-  const SearchView view(impl_->view(), inputs_of(impl_->dag, impl_->relations), impl_->whole, impl_->certain);
-  const System system(impl_->dag, impl_->relations, view.unknowns);
+  const std::vector<NodeId> relations = impl_->relations_of_search();
+  const SearchView view(impl_->view(), inputs_of(impl_->dag, relations), impl_->whole, impl_->certain);
+  const System system(impl_->dag, relations, view.unknowns);
   const SearchAnswer answer = branch_and_prune(system, options);
   Result result = result_of(view, answer.found, answer.unexplored, answer.cells);
   tell_time(result, started, options);
@@ -106,11 +107,12 @@ Result Problem::minimize(Expr objective, const SearchOptions& options) {
   const NodeId node = impl_->node_of(objective);
   require(!impl_->holds_or_not(node), "Problem: the objective is a relation");
   const double started = options.clock();
-  std::vector<NodeId> all = impl_->relations;
+  const std::vector<NodeId> relations = impl_->relations_of_search();
+  std::vector<NodeId> all = relations;
   all.push_back(node);
   const SearchView view(impl_->view(), inputs_of(impl_->dag, all), impl_->whole, impl_->certain);
   const Input value{Input::Kind::real, static_cast<VariableId>(impl_->kinds.size()), 0, 0};
-  const Minimisation problem(impl_->dag, node, impl_->relations, view.unknowns, value);
+  const Minimisation problem(impl_->dag, node, relations, view.unknowns, value);
   const MinimumAnswer answer = branch_and_bound(problem, options);
   std::vector<FoundBox> found;
   if (answer.best) found.push_back({*answer.best, Certificate::exists, Reason::proven});

@@ -167,6 +167,23 @@ int not_of_minibex(std::string_view option) {
   return kWrongUsage;
 }
 
+// Whether the goal makes use of the options of a search that were given.
+bool are_of_use(const Options& options, lang::SolveItem::Goal goal) {
+  using Goal = lang::SolveItem::Goal;
+  for (const std::string_view option : options.of_search) {
+    const bool is_of_cuts = option == "--order" || option == "--bisector";
+    if (goal == Goal::propagate) {
+      fmt::print(stderr, "hcsp-solve: {}: `solve propagate` searches nothing\n", option);
+    } else if (goal == Goal::pave && is_of_cuts) {
+      fmt::print(stderr, "hcsp-solve: {}: `solve pave` cuts all boxes, across the widest side\n", option);
+    } else {
+      continue;
+    }
+    return false;
+  }
+  return true;
+}
+
 int format(const Options& options) {
   if (lang::minibex::is_minibex(options.model)) return not_of_minibex("--format");
   std::string error;
@@ -202,12 +219,7 @@ int run(const Options& options) {
     fmt::print(stderr, "{}", compilation.diagnostics.text());
     return kWrongInput;
   }
-  if (compilation.model->goal == lang::SolveItem::Goal::propagate) {
-    for (const std::string_view option : options.of_search) {
-      fmt::print(stderr, "hcsp-solve: {}: `solve propagate` searches nothing\n", option);
-      return kWrongUsage;
-    }
-  }
+  if (!are_of_use(options, compilation.model->goal)) return kWrongUsage;
   if (!draw_graph(options, compilation.model->problem->graph())) return kWrongInput;
   if (options.check_only || !options.dump.empty()) return kFinished;
   return solve_and_tell(options, *compilation.model);

@@ -17,6 +17,12 @@ class Hash {
   void add(const Value& value) {
     hash_ = hash_of({reinterpret_cast<const char*>(&value), sizeof value}, hash_);
   }
+  void add(const Input& input) {
+    add(input.kind);
+    add(input.variable);
+    add(input.component);
+    add(input.gate);
+  }
   void add(std::string_view text) { hash_ = hash_of(text, hash_); }
   void add(const Interval& value) {
     add(value.lo());
@@ -37,18 +43,22 @@ std::uint64_t hash_of(std::string_view bytes, std::uint64_t before) {
 }
 
 std::uint64_t mark_of(const System& system, std::string_view goal, const SearchOptions& options) {
-  return mark_of(system.dag, system.stated, system.domains, system.is_whole, goal, options);
+  std::vector<System::Unknown> unknowns;
+  for (std::size_t v = 0; v < system.size(); ++v)
+    unknowns.push_back({system.inputs[v], system.domains[v], system.is_whole[v] != 0});
+  return mark_of(system.dag, system.stated, unknowns, goal, options);
 }
 
-std::uint64_t mark_of(const Dag& dag, const std::vector<NodeId>& stated, const std::vector<Interval>& domains,
-                      const std::vector<std::uint8_t>& is_whole, std::string_view goal,
+std::uint64_t mark_of(const Dag& dag, const std::vector<NodeId>& stated,
+                      const std::vector<System::Unknown>& unknowns, std::string_view goal,
                       const SearchOptions& options) {
   Hash hash;
   hash.add(goal);
   hash.add(options.precision);
-  for (std::size_t v = 0; v < domains.size(); ++v) {
-    hash.add(domains[v]);
-    hash.add(is_whole[v]);
+  for (const System::Unknown& unknown : unknowns) {
+    hash.add(unknown.input);
+    hash.add(unknown.domain);
+    hash.add(unknown.is_whole);
   }
   for (const NodeId id : needed_nodes(dag, stated)) {
     const DagNode& node = dag[id];
@@ -56,7 +66,7 @@ std::uint64_t mark_of(const Dag& dag, const std::vector<NodeId>& stated, const s
     hash.add(node.op);
     for (const NodeId operand : node.operands) hash.add(operand);
     if (node.op == Op::constant) hash.add(node.value);
-    if (node.op == Op::input) hash.add(node.input.variable);
+    if (node.op == Op::input) hash.add(node.input);
   }
   for (const NodeId id : stated) hash.add(id);
   return hash.value();

@@ -20,8 +20,8 @@ std::uint64_t hash_of(std::string_view bytes, std::uint64_t before = 0xcbf29ce48
 /// domains and the precision.
 std::uint64_t mark_of(const System& system, std::string_view goal, const SearchOptions& options);
 /// The same of relations between unknowns that are no System.
-std::uint64_t mark_of(const Dag& dag, const std::vector<NodeId>& stated, const std::vector<Interval>& domains,
-                      const std::vector<std::uint8_t>& is_whole, std::string_view goal,
+std::uint64_t mark_of(const Dag& dag, const std::vector<NodeId>& stated,
+                      const std::vector<System::Unknown>& unknowns, std::string_view goal,
                       const SearchOptions& options);
 
 std::string sealed(const nlohmann::json& state, std::uint64_t mark);

@@ -160,8 +160,12 @@ class Paver {
       const double step = whole.is_bounded() ? kStep * (whole.hi() - whole.lo()) : 0.0;
       const double low = is_whole ? kept.lo() - 1.0 : up::next_down(kept.lo() - step);
       const double high = is_whole ? kept.hi() + 1.0 : up::next_up(kept.hi() + step);
-      if (cut_off_here(whole.lo(), low)) box[v] = Interval::raw(is_whole ? kept.lo() : low, whole.hi());
-      if (cut_off_here(high, whole.hi())) box[v] = Interval::raw(box[v].lo(), is_whole ? kept.hi() : high);
+      const bool cuts_low = !is_whole || are_next(low, kept.lo()),
+                 cuts_high = !is_whole || are_next(kept.hi(), high);
+      if (cuts_low && cut_off_here(whole.lo(), low))
+        box[v] = Interval::raw(is_whole ? kept.lo() : low, whole.hi());
+      if (cuts_high && cut_off_here(high, whole.hi()))
+        box[v] = Interval::raw(box[v].lo(), is_whole ? kept.hi() : high);
     }
     return true;
   }
@@ -260,7 +264,10 @@ Findings findings_of(const nlohmann::json& state) {
 class PavingSearch {
  public:
   PavingSearch(const PointSet& set, const SearchOptions& options)
-      : set_(set), options_(options), mark_(mark_of_set()), tree_(options, [this] {
+      : set_(set),
+        options_(options),
+        mark_(mark_of(set.dag, {set.relation}, set.unknowns, fmt::format("pave {}", set.dim), options)),
+        tree_(options, [this] {
           const std::lock_guard lock(making_);
           return Paver(set_, options_);
         }) {}
@@ -282,16 +289,6 @@ class PavingSearch {
   }
 
  private:
-  [[nodiscard]] std::uint64_t mark_of_set() const {
-    std::vector<Interval> domains;
-    std::vector<std::uint8_t> is_whole;
-    for (const System::Unknown& unknown : set_.unknowns) {
-      domains.push_back(unknown.domain);
-      is_whole.push_back(unknown.is_whole ? 1 : 0);
-    }
-    return mark_of(set_.dag, {set_.relation}, domains, is_whole, fmt::format("pave {}", set_.dim), options_);
-  }
-
   [[nodiscard]] std::vector<Paver::Node> whole_domain() const {
     Paver::Node root;
     for (std::size_t v = 0; v < set_.dim; ++v) {

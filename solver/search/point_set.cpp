@@ -50,9 +50,10 @@ bool cut_across(const PointSet& set, std::span<const Interval> box, std::uint32_
                 std::vector<Interval>& parts) {
   const Interval& side = box[unknown];
   const bool is_whole = set.unknowns[unknown].is_whole;
-  if (is_whole) cut = std::floor(cut);
+  constexpr double kExact = 0x1p53;
+  if (is_whole) cut = std::clamp(std::floor(cut), -kExact, kExact - 1.0);
   const double next = is_whole ? cut + 1.0 : cut;
-  if (is_whole ? !(side.lo() <= cut && next <= side.hi() && cut < next)
+  if (is_whole ? !(side.lo() <= cut && next <= side.hi() && are_next(cut, next))
                : !(side.lo() < cut && cut < side.hi()))
     return false;
   const std::size_t size = box.size(), first = parts.size();

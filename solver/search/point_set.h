@@ -38,12 +38,14 @@ class Narrowing {
   std::vector<Interval> values_;
 };
 
+/// Whether a whole number follows another: beyond 2^53 doubles leave some out.
+inline bool are_next(double whole, double next) { return next - whole == 1.0; }
 /// The whole numbers of an interval.
 Interval whole_numbers_of(const Interval& x);
 /// Where an interval is cut: in the middle, or where it is unbounded, far out.
 double cut_of(const Interval& x);
-/// Appends the two parts of a box that is cut across one unknown, at `cut` or below. False where there is no
-/// number between.
+/// Appends the two parts of a box that is cut across one unknown, near `cut`. False where there is no number
+/// between, or no two whole numbers known to be next to each other.
 bool cut_across(const PointSet& set, std::span<const Interval> box, std::uint32_t unknown, double cut,
                 std::vector<Interval>& parts);
 

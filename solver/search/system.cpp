@@ -36,7 +36,6 @@ void sort(Dag& dag, NodeId id, Sorted& sorted) {
 
 System::System(Dag& graph, const std::vector<NodeId>& relations_stated, const std::vector<Unknown>& unknowns)
     : dag(graph), stated(relations_stated) {
-  std::vector<Input> inputs;
   std::map<Input, std::uint32_t> place_of;
   for (const Unknown& unknown : unknowns) {
     place_of.emplace(unknown.input, static_cast<std::uint32_t>(inputs.size()));

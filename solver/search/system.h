@@ -44,6 +44,7 @@ struct System {
 
   Dag& dag;
   std::vector<NodeId> stated;          ///< the relations as they were given
+  std::vector<Input> inputs;           ///< by unknown
   std::vector<Interval> domains;       ///< by unknown
   std::vector<Interval> certain;       ///< by unknown: where there may be proofs that it has a value
   std::vector<std::uint8_t> is_whole;  ///< by unknown

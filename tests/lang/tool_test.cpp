@@ -153,6 +153,16 @@ TEST_F(Tool, DumpsPhases) {
   EXPECT_EQ(run(model(kCircle) + " --dump types").text, "r : real\nx : real\ny : real\n");
 }
 
+TEST_F(Tool, RefusesOptionsThatAPavingHasNoUseFor) {
+  const std::string name = model("var x : real in [0, 2];\nconstraint x <= 1;\nsolve pave(x) precision 0.5;");
+  EXPECT_EQ(run(name + " --precision 0.25").status, 0);
+  for (const char* const option : {" --order best", " --bisector round-robin"}) {
+    const Finished result = run(name + option);
+    EXPECT_EQ(result.status, 2) << option;
+    EXPECT_THAT(result.text, HasSubstr("`solve pave` cuts all boxes")) << option;
+  }
+}
+
 TEST_F(Tool, RefusesWrongUsage) {
   const std::string name = model(kCircle);
   for (const std::string& arguments :

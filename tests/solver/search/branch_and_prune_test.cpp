@@ -171,6 +171,16 @@ TEST_F(BranchAndPrune, LeavesFreeUnknownsAlone) {
   const Result result = problem.solve_all();
   EXPECT_EQ(count(result, Certificate::exists), 2U);
   EXPECT_EQ(values(result.search->solutions[0])[1], Interval(-10, 10));
+  Problem whole("whole");
+  whole.integer("n", {0.5, 3.2});
+  EXPECT_EQ(values(whole.solve_all().search->solutions.at(0)), std::vector{Interval(1, 3)});
+  Problem none("none");
+  none.integer("n", {0.3, 0.7});
+  none.constrain("c", none(none.real("x", {0, 1})) >= Interval(0.0));
+  EXPECT_EQ(none.solve_all().status, Status::infeasible);
+  EXPECT_EQ(none.minimize(none.constant(1.0)).status, Status::infeasible);
+  const Result told = none.propagate();
+  EXPECT_EQ(told.explanation->constraint, "domain of n");
   Problem nothing("nothing");
   nothing.real("x");
   EXPECT_EQ(count(nothing.solve_all(), Certificate::inner), 1U);

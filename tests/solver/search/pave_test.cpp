@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -211,6 +212,51 @@ TEST(Pave, WholeNumbers) {
   EXPECT_LT(paving.boundary_volume, 0.06);
 }
 
+// A domain's whole numbers are those that count, whether the unknown is paved, a parameter or in no relation.
+TEST(Pave, TheBoundsOfWholeNumbersAreRounded) {
+  const auto paved = [](const Interval& domain, bool is_related) {
+    Problem problem("whole");
+    const Expr x = problem(problem.real("x", Interval(0.0, 10.0)));
+    const Expr k = problem(problem.integer("k", domain));
+    problem.constrain("c", is_related ? x >= Interval(3.0) * k : x >= Interval(6.0));
+    return problem.pave({x}, precision(0.1));
+  };
+  const Result one = paved({1.5, 2.5}, true);
+  EXPECT_LE(one.paving->inside_volume, 4.0);
+  EXPECT_GT(one.paving->inside_volume, 3.9);
+  EXPECT_EQ(std::get<Interval>(one["k"]), Interval(2.0));
+  for (const bool is_related : {false, true})
+    EXPECT_EQ(paved({2.2, 2.8}, is_related).status, Status::infeasible) << is_related;
+}
+
+// Beyond 2^53 doubles leave whole numbers out: none of these is lost, and none taken for another.
+TEST(Pave, WholeNumbersThatDoublesLeaveOut) {
+  const auto paved = [](const Interval& domain, const auto& relation) {
+    Problem problem("far");
+    const Expr n = problem(problem.integer("n", domain));
+    problem.constrain("c", relation(n));
+    return *problem.pave({n}, precision(0.1)).paving;
+  };
+  const Interval half(5e16);
+  const auto above = [&](const Expr& n) { return n >= half; };
+  const auto below = [&](const Expr& n) { return n < -half; };
+  const auto near = [](const Expr& n) { return sin(n) > Interval(2.0) || abs(n) <= Interval(3.0); };
+  for (const Paving& paving : {paved({0.0, 1e17}, above), paved({-1e17, 0.0}, below), paved({}, near)}) {
+    double last = 0.0;
+    std::vector<Interval> sides;
+    for_each_box(paving, [&](Kind, std::span<const Interval> box) { sides.push_back(box[0]); });
+    std::sort(sides.begin(), sides.end(),
+              [](const Interval& a, const Interval& b) { return a.lo() < b.lo(); });
+    for (const Interval& side : sides) {
+      EXPECT_LT(side.lo(), kInfinity);
+      EXPECT_GT(side.hi(), -kInfinity);
+      if (&side != &sides.front()) EXPECT_EQ(side.lo() - last, 1.0) << to_string(side);
+      last = side.hi();
+    }
+  }
+  EXPECT_EQ(paved({}, near).inside_volume, 7.0);
+}
+
 // {x in [0, 1] : there is p with p^2 + x p + y == 0}, the half plane below the parabola.
 TEST(Pave, ForSomeByAnEquation) {
   Plane plane;
@@ -340,6 +386,12 @@ TEST(Pave, GoesOnFromEveryCheckpoint) {
   SearchOptions other = precision(0.01);
   other.resume = states.back();
   EXPECT_THROW(paved(other), std::invalid_argument);
+  SearchOptions swapped = precision(0.02);
+  swapped.resume = states.back();
+  Plane plane;
+  const Expr f = plane.x * sin(plane.y) + sqr(plane.x);
+  plane.problem.constrain("c", f <= Interval(1.0));
+  EXPECT_THROW(plane.problem.pave({plane.y, plane.x}, swapped), std::invalid_argument);
 }
 
 TEST(Pave, WrongUseOfIt) {
