@@ -51,8 +51,8 @@ std::span<const CatalogueEntry> syntax_entries() {
           Code::not_supported, "{} is not supported yet",
           "The language has this, and the model may well be right, but this version of hcsp cannot solve\n"
           "it. docs/language.md lists what works.",
-          "var x : real in [0, 1];\nconstraint x*x == 0.5;\nsolve minimize x;",
-          "var x : real in [0, 1];\nconstraint x*x == 0.5;\nsolve all;"},
+          "var M : set real[2] in [-1, 1]^2 precision 0.5;\nconstraint volume(M) >= 1;",
+          "var M : set real[2] in [-1, 1]^2 precision 0.5;\nconstraint (0, 0) in M;"},
       CatalogueEntry{
           Code::unreadable_file, "cannot read `{}`: {}",
           "The file of an `include` does not exist, may not be read, or is too large. Paths are relative to\n"

@@ -12,7 +12,8 @@
 //   // minimum: -17 +- 1e-6            of an optimisation: its bracket, no wider, meets -17 +- 1e-6
 //   // minimum: none                   and nothing is feasible
 //   // boundary: <= 0.018              of `solve pave`: the boundary's volume
-//   // inside: 9.41 .. 9.43            of `solve pave`: what is proven to be inside has a volume between these
+//   // inside: 9.41 .. 9.43            of `solve pave`: what is proven to be inside has a volume between
+//   these
 // is solved, and its answer has to hold the solution and be no wider.
 #include <gtest/gtest.h>
 
