@@ -82,7 +82,8 @@ VectorVariable Problem::matrix(std::string name, std::size_t rows, const Box& do
   return matrix;
 }
 
-void Problem::set_certain_domain(VariableId id, const Interval& certain) {
+void Problem::set_certain_domain(VariableId id, const Interval& written) {
+  const Interval certain = impl_->whole.contains(id) ? whole_numbers_of(written) : written;
   require(leq(certain, impl_->graph.initial<Interval>(id)),
           "Problem: the certain domain {} is not in the domain", to_string(certain));
   impl_->certain[id] = certain;

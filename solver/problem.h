@@ -82,8 +82,8 @@ class Problem {
   VectorVariable vector(std::string name, const Box& domain);
   /// A matrix, as the vector of its components row after row.
   VectorVariable matrix(std::string name, std::size_t rows, const Box& domain);
-  /// Declares what of a real's domain, or a component's, certainly belongs to it, where the ends are numbers
-  /// that no double holds: a proof of a solution keeps to that. Otherwise all of it does.
+  /// Declares what of a number's domain, or a component's, certainly belongs to it, where the ends are
+  /// numbers that no double holds: a proof of a solution keeps to that. Otherwise all of it does.
   void set_certain_domain(VariableId id, const Interval& certain);
   /// Declares that an unknown is an element of an array, at these indices: results present arrays as one.
   void place_in_array(VariableId element, std::string array, std::vector<int> indices);
@@ -126,9 +126,11 @@ class Problem {
   Expr time();
   /// "For every real of `domain`, relation(it)", and "for some real": relations. The real is one more
   /// unknown, bound there. Paving decides them; propagation contracts by the weaker relation "for some", and
-  /// solve_all() does not take them.
-  Expr for_every(std::string name, const Interval& domain, const std::function<Expr(Expr)>& relation);
-  Expr for_some(std::string name, const Interval& domain, const std::function<Expr(Expr)>& relation);
+  /// solve_all() does not take them. `certain` is as in set_certain_domain().
+  Expr for_every(std::string name, const Interval& domain, const std::function<Expr(Expr)>& relation,
+                 const std::optional<Interval>& certain = {});
+  Expr for_some(std::string name, const Interval& domain, const std::function<Expr(Expr)>& relation,
+                const std::optional<Interval>& certain = {});
   /// The bound point a of a set builder in R^dim.
   VectorExpr point(std::size_t dim);
 

@@ -126,9 +126,10 @@ struct Problem::Impl {
 
   // A relation with a real of its own, which nothing else may speak of.
   Expr quantified(Op quantifier, const std::string& real, const Interval& domain,
-                  const std::function<Expr(Expr)>& relation) {
+                  const std::function<Expr(Expr)>& relation, const std::optional<Interval>& certain_domain) {
     const VariableId own = add(free_name(real), domain, DomainKind::real, true);
     bound.insert(own);
+    if (certain_domain) certain[own] = *certain_domain;
     const Expr input_of = input(Input::Kind::real, own, 0);
     const NodeId body = relation_of(relation(input_of));
     return {dag, dag.apply(quantifier, {input_of.node(), body}, 2)};

@@ -44,18 +44,23 @@ bool Problem::is_region() const {
   return all_reals && impl_->is_system;
 }
 
-Expr Problem::for_every(std::string name, const Interval& domain, const std::function<Expr(Expr)>& relation) {
-  return impl_->quantified(Op::for_every, name, domain, relation);
+Expr Problem::for_every(std::string name, const Interval& domain, const std::function<Expr(Expr)>& relation,
+                        const std::optional<Interval>& certain) {
+  return impl_->quantified(Op::for_every, name, domain, relation, certain);
 }
 
-Expr Problem::for_some(std::string name, const Interval& domain, const std::function<Expr(Expr)>& relation) {
-  return impl_->quantified(Op::for_some, name, domain, relation);
+Expr Problem::for_some(std::string name, const Interval& domain, const std::function<Expr(Expr)>& relation,
+                       const std::optional<Interval>& certain) {
+  return impl_->quantified(Op::for_some, name, domain, relation, certain);
 }
 
 // The coordinates are free, the other unknowns of the constraints bound by "for some".
 PointSet Problem::Impl::point_set_of(const std::vector<Expr>& variables) {
   const auto unknown = [&](const Input& input) {
-    return System::Unknown{input, graph.initial<Interval>(input.variable), whole.contains(input.variable)};
+    System::Unknown made{input, graph.initial<Interval>(input.variable), whole.contains(input.variable)};
+    const auto known = certain.find(input.variable);
+    if (known != certain.end()) made.certain = known->second;
+    return made;
   };
   std::vector<System::Unknown> unknowns;
   std::set<Input> known;

@@ -320,7 +320,6 @@ std::optional<Unknowns::Handle> Compiler::make_plain(const Symbol& symbol, const
       certain[i] = stated->certain[first + i];
     }
   }
-  if (type.whole && type.dim == 0) return problem_->integer(name, box[0]);
   const auto made = [&](auto unknown) -> Unknowns::Handle {
     for (Eigen::Index i = 0; i < box.dim(); ++i) {
       if (!(certain[i] == box[i]))
@@ -330,6 +329,7 @@ std::optional<Unknowns::Handle> Compiler::make_plain(const Symbol& symbol, const
   };
   if (type.is_matrix()) return made(problem_->matrix(name, type.dim, box));
   if (type.dim != 0) return made(problem_->vector(name, box));
+  if (type.whole) return made(problem_->integer(name, box[0]));
   return made(problem_->real(name, box[0]));
 }
 

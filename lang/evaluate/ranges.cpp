@@ -53,18 +53,19 @@ Value Evaluator::over_reals(const Expr& expr) {
   struct Component {
     std::string name;
     std::uint32_t local;
-    Interval domain;
+    Interval domain, certain;
   };
   std::vector<Component> components;
   for (const Binding& bound : expr.bindings) {
     const auto domain = box(*bound.domain);
-    if (!domain) return {};
+    const auto certain = domain ? certain_box(*bound.domain) : std::nullopt;
+    if (!certain) return {};
     const std::uint32_t local = model_.reference(*bound.domain).local;
     bind(local, {});
     for (Eigen::Index i = 0; i < domain->dim(); ++i) {
       const std::string text(bound.name.text);
-      components.push_back(
-          {domain->dim() == 1 ? text : fmt::format("{}[{}]", text, i + 1), local, (*domain)[i]});
+      components.push_back({domain->dim() == 1 ? text : fmt::format("{}[{}]", text, i + 1), local,
+                            (*domain)[i], (*certain)[i]});
     }
   }
   Value body;
@@ -80,9 +81,9 @@ Value Evaluator::over_reals(const Expr& expr) {
       return quantify(k + 1);
     };
     Problem& problem = unknowns_->problem;
-    const auto& [name, local, domain] = components[k];
-    return expr.quantifier == Quantifier::forall ? problem.for_every(name, domain, relation)
-                                                 : problem.for_some(name, domain, relation);
+    const auto& [name, local, domain, certain] = components[k];
+    return expr.quantifier == Quantifier::forall ? problem.for_every(name, domain, relation, certain)
+                                                 : problem.for_some(name, domain, relation, certain);
   };
   const hcsp::Expr relation = quantify(0);
   return body.empty() ? Value{} : Value{relation};

@@ -45,7 +45,8 @@ std::uint64_t hash_of(std::string_view bytes, std::uint64_t before) {
 std::uint64_t mark_of(const System& system, std::string_view goal, const SearchOptions& options) {
   std::vector<System::Unknown> unknowns;
   for (std::size_t v = 0; v < system.size(); ++v)
-    unknowns.push_back({system.inputs[v], system.domains[v], system.is_whole[v] != 0});
+    unknowns.push_back(
+        {system.inputs[v], system.domains[v], system.is_whole[v] != 0, false, system.certain[v]});
   return mark_of(system.dag, system.stated, unknowns, goal, options);
 }
 
@@ -58,6 +59,7 @@ std::uint64_t mark_of(const Dag& dag, const std::vector<NodeId>& stated,
   for (const System::Unknown& unknown : unknowns) {
     hash.add(unknown.input);
     hash.add(unknown.domain);
+    hash.add(unknown.certain_part());
     hash.add(unknown.is_whole);
   }
   for (const NodeId id : needed_nodes(dag, stated)) {

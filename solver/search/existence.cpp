@@ -126,10 +126,8 @@ bool Existence::approach_solution() {
 
 bool Existence::lies_within(const std::vector<Interval>& enclosure) const {
   return std::all_of(own_.begin(), own_.end(), [&](std::uint32_t v) {
-    const Interval &side = enclosure[v], &domain = set_.unknowns[v].domain;
-    if (set_.unknowns[v].is_whole) return side.is_point() && leq(side, domain);
-    // A literal may leave open whether the domain has its ends.
-    return side == domain ? domain.is_point() : domain.lo() < side.lo() && side.hi() < domain.hi();
+    const Interval& side = enclosure[v];
+    return (side.is_point() || !set_.unknowns[v].is_whole) && leq(side, set_.unknowns[v].certain_part());
   });
 }
 

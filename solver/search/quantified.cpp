@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "domains/interval/kernel.h"
 #include "solver/expression/operators.h"
 #include "solver/search/existence.h"
 #include "solver/search/membership.h"
@@ -69,10 +68,22 @@ class Quantified final : public Membership::Part {
     return is_open ? Verdict::open : opposite(settles_);
   }
 
+  // A part without values that the domain certainly has settles nothing, and stays open.
   bool is_settled_in(const std::vector<Interval>& boxes) {
     verdicts_.resize(boxes.size() / set_.size());
     body_->decide(boxes, verdicts_);
-    return std::find(verdicts_.begin(), verdicts_.end(), settles_) != verdicts_.end();
+    for (std::size_t k = 0; k < verdicts_.size(); ++k) {
+      if (verdicts_[k] != settles_) continue;
+      if (is_certain({&boxes[k * set_.size()], set_.size()})) return true;
+      verdicts_[k] = Verdict::open;
+    }
+    return false;
+  }
+
+  [[nodiscard]] bool is_certain(std::span<const Interval> part) const {
+    return std::all_of(own_.begin(), own_.end(), [&](std::uint32_t v) {
+      return !meet(part[v], set_.unknowns[v].certain_part()).is_empty();
+    });
   }
 
   // To the values of what is bound that do not have the opposite verdict on the whole box.
@@ -83,20 +94,16 @@ class Quantified final : public Membership::Part {
     return true;
   }
 
-  // The middle is no end of the domain, where a literal may leave open whether the domain has it.
   bool is_settled_at_points() {
     points_ = parts_;
     for (std::size_t first = 0; first < points_.size(); first += set_.size()) {
       for (const std::uint32_t v : own_) {
         Interval& side = points_[first + v];
-        const Interval& domain = set_.unknowns[v].domain;
-        double middle = side.is_bounded() ? 0.5 * side.lo() + 0.5 * side.hi() : cut_of(side);
-        if (set_.unknowns[v].is_whole) {
-          middle = std::floor(middle);
-        } else if (!domain.is_point()) {
-          middle = std::clamp(middle, up::next_up(domain.lo()), up::next_down(domain.hi()));
-        }
-        side = Interval::raw(middle, middle);
+        const Interval& certain = set_.unknowns[v].certain_part();
+        if (certain.is_empty()) return false;
+        const double middle = set_.unknowns[v].is_whole ? std::floor(cut_of(side)) : cut_of(side),
+                     value = std::clamp(middle, certain.lo(), certain.hi());
+        side = Interval::raw(value, value);
       }
     }
     return !points_.empty() && is_settled_in(points_);

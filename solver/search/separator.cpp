@@ -6,7 +6,6 @@
 #include <set>
 #include <utility>
 
-#include "domains/interval/kernel.h"
 #include "solver/expression/operators.h"
 
 namespace hcsp {
@@ -59,17 +58,13 @@ Separator::Separator(const PointSet& set)
       sides_{Side{{set, set.dag.apply(Op::logical_not, {set.relation}, 1)}, universals_of(set, false)},
              Side{{set, set.relation}, universals_of(set, true)}} {}
 
-// Near the ends, which a literal may leave out of the domain, and in the middle.
+// The middle, and the ends. What holds for every value holds for some, where none is known.
 Interval Separator::value_to_try(std::size_t unknown, int attempt) const {
-  const Interval& domain = set_.unknowns[unknown].domain;
-  if (domain.is_point()) return domain;
-  const double middle = cut_of(domain);
-  double value = attempt == 0 ? middle : attempt == 1 ? domain.lo() : domain.hi();
-  if (!std::isfinite(value)) value = middle;
-  value = set_.unknowns[unknown].is_whole
-              ? std::floor(value)
-              : std::clamp(value, up::next_up(domain.lo()), up::next_down(domain.hi()));
-  return Interval::raw(value, value);
+  const Interval& certain = set_.unknowns[unknown].certain_part();
+  if (certain.is_empty()) return set_.unknowns[unknown].domain;
+  const double middle = set_.unknowns[unknown].is_whole ? std::floor(cut_of(certain)) : cut_of(certain);
+  const double value = attempt == 0 ? middle : attempt == 1 ? certain.lo() : certain.hi();
+  return std::isfinite(value) ? Interval::raw(value, value) : Interval::raw(middle, middle);
 }
 
 bool Separator::contract(std::span<Interval> box, bool wanted) {

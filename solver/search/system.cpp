@@ -41,7 +41,7 @@ System::System(Dag& graph, const std::vector<NodeId>& relations_stated, const st
     place_of.emplace(unknown.input, static_cast<std::uint32_t>(inputs.size()));
     inputs.push_back(unknown.input);
     domains.push_back(unknown.domain);
-    certain.push_back(unknown.certain.value_or(unknown.domain));
+    certain.push_back(unknown.certain_part());
     is_whole.push_back(unknown.is_whole ? 1 : 0);
     is_given.push_back(unknown.is_given ? 1 : 0);
   }

@@ -33,6 +33,8 @@ struct System {
     bool is_whole = false;
     bool is_given = false;                 ///< for every value of it: equations are never solved for it
     std::optional<Interval> certain = {};  ///< what of the domain certainly belongs to it; all by default
+
+    [[nodiscard]] const Interval& certain_part() const { return certain ? *certain : domain; }
   };
 
   /// Sorts the conjuncts of relations between the unknowns; adds nodes to the graph, which outlives the

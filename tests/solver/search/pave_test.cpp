@@ -325,6 +325,38 @@ TEST(Pave, QuantifiersWithinConnectives) {
   });
 }
 
+// Of a domain whose ends are enclosed, what it may lack settles nothing: [0, e] with e in [1, 1.25], and {e}.
+TEST(Pave, EndsOfDomainsThatAreEnclosed) {
+  const Interval end(1.25);
+  const auto paved = [&](const Interval& domain, const Interval& certain, bool every) {
+    Problem problem("ends");
+    const Expr x = problem(problem.real("x", Interval(0.0, 1.0)));
+    const auto beside = [&](Expr q) { return every ? x + q < Interval(-1.0) : x + q >= Interval(0.0); };
+    const auto body = [&](Expr p) {
+      const auto within = [&](Expr q) { return every ? p < end || beside(q) : p >= end && beside(q); };
+      return every ? problem.for_every("q", Interval(0.0, 1.0), within)
+                   : problem.for_some("q", Interval(0.0, 1.0), within);
+    };
+    problem.constrain("c", every ? problem.for_every("p", domain, body, certain)
+                                 : problem.for_some("p", domain, body, certain));
+    return *problem.pave({x}, precision(0.1)).paving;
+  };
+  for (const bool every : {false, true}) {
+    for (const Interval& domain : {Interval(0.0, 1.25), Interval(1.0, 1.25)}) {
+      const Interval certain = domain.lo() == 0.0 ? Interval(0.0, 1.0) : Interval::empty();
+      const Paving open = paved(domain, certain, every), decided = paved(domain, domain, every);
+      EXPECT_TRUE(open.inside.empty() && open.outside.empty()) << every << to_string(domain);
+      EXPECT_EQ((every ? decided.outside : decided.inside).size(), 1U) << every << to_string(domain);
+    }
+  }
+  Problem problem("parameter");
+  const Expr x = problem(problem.real("x", Interval(0.0, 1.0)));
+  const RealVariable p = problem.real("p", Interval(1.0, 1.25));
+  problem.set_certain_domain(p.id, Interval::empty());
+  problem.constrain("c", x < problem(p));
+  EXPECT_TRUE(problem.pave({x}, precision(0.1)).paving->outside.empty());
+}
+
 TEST(Pave, TheSameForAnyNumberOfThreads) {
   std::vector<Result> results;
   for (const unsigned threads : {1U, 2U, 5U}) {
