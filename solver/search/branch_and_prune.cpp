@@ -153,7 +153,7 @@ class Explorer {
 
   // Every point is a solution.
   bool is_inner(const std::vector<Interval>& box) {
-    return forms_.size() == 0 && whole_where_asked(box) && all_hold(box);
+    return newton_.equations() == 0 && whole_where_asked(box) && all_hold(box);
   }
 
   [[nodiscard]] bool whole_where_asked(const std::vector<Interval>& box) const {
@@ -203,7 +203,7 @@ class Explorer {
       if (box[v].is_empty()) return;
     }
     if (!hc4_.contract(box)) return;
-    if (forms_.size() > box.size()) return keep(box, Certificate::none, Reason::overdetermined);
+    if (newton_.equations() > box.size()) return keep(box, Certificate::none, Reason::overdetermined);
     if (!is_within || !all_hold(box)) return keep(box, Certificate::none, Reason::boundary);
     keep(newton_.enclosure(), Certificate::unique, Reason::proven);
   }
@@ -211,7 +211,7 @@ class Explorer {
   // A box that is not cut any more: there is a solution for every value of the parameters, or nothing is
   // proven.
   void keep_small(std::vector<Interval> box) {
-    const std::size_t equations = forms_.size();
+    const std::size_t equations = newton_.equations();
     if (equations == 0) return keep(box, Certificate::none, Reason::boundary);
     if (newton_.prove_alone(box, options_.precision)) return keep_alone();
     if (equations >= box.size())

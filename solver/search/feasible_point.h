@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "solver/search/choices.h"
+#include "solver/search/implied_equations.h"
 #include "solver/search/newton.h"
 
 namespace hcsp {
@@ -50,9 +51,5 @@ class FeasiblePoint {
   std::vector<std::uint32_t> solved_,
       solved_by_;  // unknowns, and the numbers of the equations that they solve
 };
-
-/// Which of a system's equations, by number among them, others imply: those that elimination of what is
-/// linear reduces to 0 = 0 without rounding. PRECONDITION: the thread rounds upward.
-std::vector<std::uint8_t> implied_equations(const System& system);
 
 }  // namespace hcsp

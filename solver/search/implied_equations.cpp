@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "solver/search/implied_equations.h"
+
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "domains/interval/kernel.h"
-#include "solver/search/feasible_point.h"
 
 namespace hcsp {
 
@@ -55,10 +57,12 @@ std::size_t pivot_of(const std::vector<Interval>& entries, std::size_t unknowns)
 }  // namespace
 
 std::vector<std::uint8_t> implied_equations(const System& system) {
-  const auto is_equation = [](const System::Relation& relation) { return relation.is_equation(); };
-  std::vector<std::uint8_t> implied(
-      static_cast<std::size_t>(std::count_if(system.relations.begin(), system.relations.end(), is_equation)),
-      0);
+  std::vector<std::uint8_t> implied;
+  std::set<std::uint32_t> stated;
+  for (std::uint32_t i = 0; i < system.relations.size(); ++i) {
+    if (system.relations[i].is_equation())
+      implied.push_back(stated.insert(system.tape->root(i)).second ? 0 : 1);
+  }
   std::vector<LinearRow> rows = linear_rows(system);
   for (std::size_t k = 0; k < rows.size(); ++k) {
     const std::vector<Interval> by = rows[k].entries;

@@ -6,39 +6,40 @@
 #include <numeric>
 
 #include "domains/interval/kernel.h"
+#include "domains/rounding.h"
+#include "solver/search/implied_equations.h"
 
 namespace hcsp {
 
 Newton::Newton(const System& system, MeanValueForms& forms)
-    : system_(system),
-      forms_(forms),
-      rows_(std::min(system.size(), forms.size())),
-      columns_(rows_.size()),
-      reach_(system.size()),
-      image_(system.size()) {
-  std::iota(rows_.begin(), rows_.end(), 0U);
+    : system_(system), forms_(forms), reach_(system.size()), image_(system.size()) {
+  const RoundUpward guard;
+  const std::vector<std::uint8_t> implied = implied_equations(system);
+  for (std::uint32_t e = 0; e < forms.size(); ++e) {
+    if (implied[e] == 0) needed_.push_back(e);
+  }
+  rows_ = needed_;
+  rows_.resize(std::min(needed_.size(), system.size()));
+  columns_.resize(rows_.size());
   std::iota(columns_.begin(), columns_.end(), 0U);
 }
 
 // False where the mean value theorem does not hold of every equation.
 bool Newton::expand_over(const std::vector<Interval>& box) {
   forms_.expand_over(box);
-  for (std::size_t e = 0; e < forms_.size(); ++e) {
-    if (!forms_.has_form(e)) return false;
-  }
-  return true;
+  return std::all_of(needed_.begin(), needed_.end(), [&](std::uint32_t e) { return forms_.has_form(e); });
 }
 
 // As many equations as unknowns: those that Gauss's elimination of the midpoint pivots on. A whole number
 // that is known is none of them, nor is what is given.
 bool Newton::choose_square(const std::vector<Interval>& box) {
-  const std::size_t m = forms_.size(), n = box.size(), size = rows_.size();
+  const std::size_t m = needed_.size(), n = box.size(), size = rows_.size();
   Eigen::MatrixXd middle(static_cast<Eigen::Index>(m), static_cast<Eigen::Index>(n));
   for (Eigen::Index e = 0; e < middle.rows(); ++e) {
     for (std::size_t v = 0; v < n; ++v) {
       const bool is_known = system_.is_given[v] != 0 || (system_.is_whole[v] != 0 && box[v].is_point());
       middle(e, static_cast<Eigen::Index>(v)) =
-          is_known ? 0.0 : middle_of(forms_.slopes(static_cast<std::size_t>(e))[v]);
+          is_known ? 0.0 : middle_of(forms_.slopes(needed_[static_cast<std::size_t>(e)])[v]);
     }
   }
   const Eigen::FullPivLU<Eigen::MatrixXd> lu(middle);
@@ -46,7 +47,7 @@ bool Newton::choose_square(const std::vector<Interval>& box) {
   const auto& place_of_row = lu.permutationP().indices();
   for (std::size_t e = 0; e < m; ++e) {
     const auto place = static_cast<std::size_t>(place_of_row[static_cast<Eigen::Index>(e)]);
-    if (place < size) rows_[place] = static_cast<std::uint32_t>(e);
+    if (place < size) rows_[place] = needed_[e];
   }
   for (std::size_t k = 0; k < size; ++k)
     columns_[k] = static_cast<std::uint32_t>(lu.permutationQ().indices()[static_cast<Eigen::Index>(k)]);
@@ -106,7 +107,7 @@ Newton::Outcome Newton::contract(std::vector<Interval>& box) {
     const double margin = kWider * width_of(box[v]) + kLeast * std::max(box[v].mag(), kNearZero);
     reach_[v] = system_.is_whole[v] != 0 ? box[v] : up::add(box[v], Interval::raw(-margin, margin));
   }
-  if (forms_.size() != box.size() && (!expand_over(reach_) || !choose_square(box))) return Outcome::nothing;
+  if (needed_.size() != box.size() && (!expand_over(reach_) || !choose_square(box))) return Outcome::nothing;
   const Outcome outcome = step(reach_, image_);
   if (outcome == Outcome::nothing || outcome == Outcome::empty) return outcome;
   bool changed = false;
@@ -125,7 +126,7 @@ Newton::Outcome Newton::contract(std::vector<Interval>& box) {
 // more and more room (epsilon inflation, Rump 1999).
 bool Newton::prove_alone(const std::vector<Interval>& box, double farthest) {
   constexpr double kFirst = 1e-12, kMore = 16.0, kNearZero = 1e-3;
-  if (rows_.size() != box.size() || forms_.size() != box.size() || !is_bounded(box)) return false;
+  if (needed_.size() != box.size() || !is_bounded(box)) return false;
   for (double room = kFirst; room <= farthest; room *= kMore) {
     for (std::size_t v = 0; v < box.size(); ++v) {
       const double margin = room * std::max(box[v].mag(), kNearZero) + width_of(box[v]);

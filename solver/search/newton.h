@@ -24,6 +24,8 @@ class Newton {
   /// other.
   Outcome contract(std::vector<Interval>& box);
   [[nodiscard]] const std::vector<Interval>& reach() const { return reach_; }
+  /// How many equations there are but those that the others imply, which are left out of all proofs.
+  [[nodiscard]] std::size_t equations() const { return needed_.size(); }
   /// Whether the parameters have but one value there: then it is one solution.
   [[nodiscard]] bool is_one() const;
   [[nodiscard]] const std::vector<Interval>& enclosure() const { return image_; }
@@ -59,6 +61,7 @@ class Newton {
 
   const System& system_;
   MeanValueForms& forms_;
+  std::vector<std::uint32_t> needed_;          // the equations that no others imply
   std::vector<std::uint32_t> rows_, columns_;  // the equations and unknowns at hand, as many of either
   Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> inverse_;
   std::vector<Interval> reach_, image_, next_;

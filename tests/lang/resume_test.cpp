@@ -78,7 +78,8 @@ TEST_P(Resume, AfterAKillTheAnswerIsThatOfAWholeRun) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Models, Resume, testing::Values("gallery/reimer.hcsp"));
+INSTANTIATE_TEST_SUITE_P(Models, Resume,
+                         testing::Values("gallery/neurophysiology.hcsp", "gallery/robust_control.hcsp"));
 
 }  // namespace
 }  // namespace hcsp::lang

@@ -150,6 +150,16 @@ TEST_F(BranchAndPrune, DoesNotCertifyMoreEquationsThanUnknowns) {
   EXPECT_EQ(result.search->solutions.size(), 2U);
 }
 
+TEST_F(BranchAndPrune, CertifiesInSpiteOfEquationsThatOthersImply) {
+  problem.constrain("circle", sqr(x) + sqr(y) == Interval(5.0));
+  problem.constrain("line", x + y == Interval(3.0));
+  problem.constrain("line again", Interval(2.0) * x + Interval(2.0) * y == Interval(6.0));
+  problem.constrain("circle again", sqr(x) + sqr(y) == Interval(5.0));
+  const Result result = problem.solve_all();
+  EXPECT_EQ(count(result, Certificate::unique), 2U);
+  EXPECT_EQ(result.search->solutions.size(), 2U);
+}
+
 TEST_F(BranchAndPrune, KnowsWholeNumbersAndChoices) {
   const auto n = problem.integer("n", {0, 5});
   const auto b = problem.boolean("b");
