@@ -107,6 +107,7 @@ std::optional<Result> search(const Options& options, const lang::CompiledModel& 
       return answer(model, search);
     }
   } catch (const std::invalid_argument& refused) {
+    if (options.resume.empty()) throw;
     error = refused.what();
   }
   fmt::print(stderr, "hcsp-solve: --resume {}: {}\n", options.resume, error);
