@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <cmath>
 #include <cstdio>
 #include <map>
 
@@ -31,12 +32,20 @@ const std::map<std::string, Bisector> kBisectors{{"smear", Bisector::smear},
 // Options that `solve propagate` has no use for.
 constexpr std::array kOfSearch{"--precision", "--order", "--bisector", "--checkpoint", "--resume"};
 
+const CLI::Validator kPositive(
+    [](std::string& text) {
+      double value = 0.0;
+      const bool good = CLI::detail::lexical_cast(text, value) && value > 0 && std::isfinite(value);
+      return good ? std::string() : fmt::format("`{}` is no number above 0", text);
+    },
+    "");
+
 void declare_search(CLI::App& app, Options& options) {
   app.add_option(
          "--precision", options.precision,
          "Of a search, in place of the model's: no box is cut finer; of an optimisation, the absolute or "
          "relative width of the bracket")
-      ->check(CLI::PositiveNumber)
+      ->check(kPositive)
       ->option_text("P");
   app.add_option("--order", options.order,
                  "Of a search: depth (first) or best (first, as an optimisation is by itself)")
@@ -71,11 +80,11 @@ void declare(CLI::App& app, Options& options, Written& written) {
       ->check(CLI::Range(1U, 1024U))
       ->option_text("N");
   app.add_option("--time-limit", options.time_limit, "Stop after S seconds; the domains are still guaranteed")
-      ->check(CLI::PositiveNumber)
+      ->check(kPositive)
       ->option_text("S");
   app.add_option("--memory-limit", options.memory_limit,
                  "Stop when the process holds more than MB megabytes, as at a time limit")
-      ->check(CLI::PositiveNumber)
+      ->check(kPositive)
       ->option_text("MB");
   declare_search(app, options);
   app.add_flag("--check", options.check_only, "Read and check the model and its data, solve nothing");

@@ -78,8 +78,8 @@ void FritzJohn::collect_multipliers(std::uint32_t signs) {
 // "The sum of slopes along an unknown is 0", or not less at the lower bound of its domain, not more at the
 // upper one: what that says of multipliers that are not negative, whatever the slopes within their intervals.
 void FritzJohn::add_row(std::uint32_t v) {
-  const Interval& domain = problem_.constraints.domains[v];
-  if (problem_.constraints.is_whole[v] != 0) return;
+  const Interval& domain = problem_.constraints.certain[v];
+  if (problem_.constraints.is_whole[v] != 0 || domain.is_empty()) return;
   const bool is_off_lower = around_[v].lo() >= domain.lo(), is_off_upper = around_[v].hi() <= domain.hi();
   std::vector<LinearTerm> least, most;
   for (std::uint32_t k = 0; k < multipliers_.size(); ++k) {

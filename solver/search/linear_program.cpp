@@ -14,6 +14,8 @@ namespace hcsp {
 namespace {
 
 constexpr Interval kZero = Interval::raw(0.0, 0.0);
+// Beyond it CLP's own assertions end the process.
+constexpr double kMostFactor = 1e20;
 
 Clp_Simplex* clp(void* model) { return static_cast<Clp_Simplex*>(model); }
 
@@ -29,9 +31,11 @@ void LinearProgram::start(std::span<const Interval> columns) {
   starts_.assign(1, 0);
   row_terms_.clear();
   is_loaded_ = is_refuted_ = false;
+  is_moderate_ = true;
 }
 
 void LinearProgram::add_row(std::span<const LinearTerm> terms, const Interval& within) {
+  for (const LinearTerm& term : terms) is_moderate_ = is_moderate_ && std::abs(term.factor) < kMostFactor;
   row_terms_.insert(row_terms_.end(), terms.begin(), terms.end());
   starts_.push_back(row_terms_.size());
   within_.push_back(within);
@@ -78,13 +82,18 @@ void LinearProgram::load() {
 }
 
 bool LinearProgram::solve(std::span<const LinearTerm> objective) {
-  if (rows() == 0) return false;
+  double most = 0.0;
+  for (const LinearTerm& term : objective) most = std::max(most, std::abs(term.factor));
+  is_refuted_ = false;
+  if (rows() == 0 || !is_moderate_ || !std::isfinite(most)) return false;
   const RoundNearest nearest;
   const bool is_first = !is_loaded_;
   if (is_first) load();
   is_loaded_ = true;
   std::fill(objective_.begin(), objective_.end(), 0.0);
-  for (const LinearTerm& term : objective) objective_[term.column] += term.factor;
+  // The least value is at the same place in any scale, and the simplex method wants a moderate one.
+  const double scale = most > 0.0 ? std::ldexp(1.0, -std::clamp(std::ilogb(most), -1000, 1000)) : 1.0;
+  for (const LinearTerm& term : objective) objective_[term.column] += term.factor * scale;
   Clp_Simplex* model = clp(model_.get());
   Clp_chgObjCoefficients(model, objective_.data());
   Clp_setNumberIterations(model, 0);

@@ -31,7 +31,8 @@ class LinearProgram {
   [[nodiscard]] std::span<const Interval> columns() const { return columns_; }
 
   /// Looks for the least value of a sum, in floating point. The program stands after the first call: then
-  /// only objectives change. False where the simplex method gave up, or found no solution.
+  /// only objectives change. False where the simplex method gave up, or found no solution, or where
+  /// factors are too large for it.
   bool solve(std::span<const LinearTerm> objective);
   /// After solve(): where the least value is.
   [[nodiscard]] std::span<const double> solution() const { return solution_; }
@@ -49,7 +50,7 @@ class LinearProgram {
   bool contract_by_ray();
 
   std::unique_ptr<void, Deleter> model_;
-  bool is_loaded_ = false, is_refuted_ = false;
+  bool is_loaded_ = false, is_refuted_ = false, is_moderate_ = true;
   std::vector<Interval> columns_, within_, terms_, sums_, factors_;
   std::vector<std::size_t> starts_;  // of the rows' terms, and their end
   std::vector<LinearTerm> row_terms_;

@@ -52,7 +52,7 @@ bool Stationary::find_free(const std::vector<Interval>& box) {
   for (std::uint32_t row = 0; row < problem_.gradient_unknowns.size(); ++row) {
     const std::uint32_t v = problem_.gradient_unknowns[row];
     const Interval wider = Interval::raw(up::next_down(box[v].lo()), up::next_up(box[v].hi()));
-    if (!leq(wider, problem_.constraints.domains[v])) continue;
+    if (!leq(wider, problem_.constraints.certain[v])) continue;
     around_[v] = wider;
     rows_.push_back(row);
     columns_.push_back(v);
@@ -72,8 +72,24 @@ bool Stationary::is_inside() {
   for (const std::uint32_t v : columns_) {
     if (slopes_[v].is_empty() || !slopes_[v].is_bounded()) return false;
   }
+  keep_defined();
+  if (rows_.empty()) return false;
   if (problem_.constraints.choices.empty()) return true;
   return choices_.all_hold({around_.begin(), around_.end() - 1});
+}
+
+// A slope that exists may be written as what does not: of 0 norm(x) at 0 it is 0 x/norm(x), which HC4-revise
+// would call impossible.
+void Stationary::keep_defined() {
+  gradient_run_.evaluate({around_.data(), around_.size() - 1}, false);
+  std::size_t kept = 0;
+  for (std::size_t k = 0; k < rows_.size(); ++k) {
+    if (!gradient_run_.is_continuous(rows_[k])) continue;
+    rows_[kept] = rows_[k];
+    columns_[kept++] = columns_[k];
+  }
+  rows_.resize(kept);
+  columns_.resize(kept);
 }
 
 // Whether the objective bends down along some unknown everywhere.

@@ -25,6 +25,7 @@ class Stationary {
  private:
   bool find_free(const std::vector<Interval>& box);
   bool is_inside();
+  void keep_defined();
   bool is_concave();
 
   const Minimisation& problem_;

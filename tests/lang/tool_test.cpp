@@ -165,13 +165,27 @@ TEST_F(Tool, RefusesOptionsThatAPavingHasNoUseFor) {
 
 TEST_F(Tool, RefusesWrongUsage) {
   const std::string name = model(kCircle);
-  for (const std::string& arguments :
-       {std::string(), std::string("--no-such-option"), name + " --threads 0", name + " --threads two",
-        name + " --time-limit -1", name + " -o result", name + " -o result.txt", name + " --set r",
-        name + " --set =1", name + " --graph g.png", name + " --format -o x.json", name + " --precision 0.1",
-        name + " --memory-limit 0", name + " --checkpoint c", name + " --resume c",
-        name + " --bisector largest", name + " --order depth", name + " " + name,
-        std::string("--explain E999")}) {
+  for (const std::string& arguments : {std::string(),
+                                       std::string("--no-such-option"),
+                                       name + " --threads 0",
+                                       name + " --threads two",
+                                       name + " --time-limit -1",
+                                       name + " --time-limit nan",
+                                       name + " --memory-limit inf",
+                                       name + " -o result",
+                                       name + " -o result.txt",
+                                       name + " --set r",
+                                       name + " --set =1",
+                                       name + " --graph g.png",
+                                       name + " --format -o x.json",
+                                       name + " --precision 0.1",
+                                       name + " --memory-limit 0",
+                                       name + " --checkpoint c",
+                                       name + " --resume c",
+                                       name + " --bisector largest",
+                                       name + " --order depth",
+                                       name + " " + name,
+                                       std::string("--explain E999")}) {
     const Finished result = run(arguments);
     EXPECT_EQ(result.status, 2) << arguments;
     EXPECT_THAT(result.text, testing::StartsWith("hcsp-solve: ")) << arguments;
