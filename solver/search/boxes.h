@@ -25,6 +25,13 @@ inline bool is_divisible(const Interval& x) {
   return x.lo() < cut && cut < x.hi();
 }
 
+/// Whether some side lost so much that less than a part of its width is left.
+inline bool is_less_than(double part, const std::vector<Interval>& before, const std::vector<Interval>& now) {
+  return !std::equal(now.begin(), now.end(), before.begin(), [part](const Interval& x, const Interval& was) {
+    return width_of(x) >= part * width_of(was);
+  });
+}
+
 /// In the order of the lower bounds, of the upper ones where those are equal.
 inline bool comes_before(const std::vector<Interval>& a, const std::vector<Interval>& b) {
   return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end(),

@@ -162,9 +162,7 @@ class Bounder {
 
   static bool is_much_less(const std::vector<Interval>& before, const std::vector<Interval>& now) {
     constexpr double kMuch = 0.8;
-    return !std::equal(now.begin(), now.end(), before.begin(), [](const Interval& x, const Interval& was) {
-      return width_of(x) >= kMuch * width_of(was);
-    });
+    return is_less_than(kMuch, before, now);
   }
 
   // The unknown with which the relations and the objective vary most (Trombettoni et al. 2011, smearSumRel).

@@ -112,9 +112,7 @@ class Explorer {
 
   static bool is_much_less(const std::vector<Interval>& before, const std::vector<Interval>& now) {
     constexpr double kMuch = 0.9;
-    return !std::equal(now.begin(), now.end(), before.begin(), [](const Interval& x, const Interval& was) {
-      return width_of(x) >= kMuch * width_of(was);
-    });
+    return is_less_than(kMuch, before, now);
   }
 
   static Node half(const std::vector<Interval>& box, std::uint32_t cut, const Interval& part) {

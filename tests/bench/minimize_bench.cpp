@@ -1,25 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // How long the gallery's optimisation problems take, with one thread and with two.
-#include <benchmark/benchmark.h>
-
-#include <algorithm>
-#include <filesystem>
-#include <vector>
-
-#include "lang/lang.h"
+#include "gallery_bench.h"
 
 namespace {
 
 using namespace hcsp;
 
-void minimize(benchmark::State& state, const std::string& path) {
-  lang::Compilation compilation = lang::compile_file(path);
-  if (!compilation.model) return state.SkipWithError(compilation.diagnostics.text().c_str());
-  SearchOptions options;
-  options.precision = compilation.model->precision;
-  options.threads = static_cast<unsigned>(state.range(0));
+void minimize(benchmark::State& state, const lang::CompiledModel& model) {
+  const SearchOptions options = gallery_bench::options_of(model, state);
   Result result;
-  for (auto _ : state) result = compilation.model->problem->minimize(*compilation.model->objective, options);
+  for (auto _ : state) result = model.problem->minimize(*model.objective, options);
   state.counters["cells"] = static_cast<double>(result.search->cells);
   state.counters["minimum"] = result.objective->hi();
 }
@@ -27,19 +17,5 @@ void minimize(benchmark::State& state, const std::string& path) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  std::vector<std::filesystem::path> models;
-  for (const auto& file : std::filesystem::directory_iterator(HCSP_SOURCE_DIR "/models/gallery"))
-    models.push_back(file.path());
-  std::sort(models.begin(), models.end());
-  for (const auto& model : models) {
-    const lang::Compilation compilation = lang::compile_file(model);
-    if (!compilation.model || compilation.model->goal != lang::SolveItem::Goal::minimize) continue;
-    benchmark::RegisterBenchmark(model.stem().c_str(), minimize, model.string())
-        ->Arg(1)
-        ->Arg(2)
-        ->UseRealTime()
-        ->Unit(benchmark::kMillisecond);
-  }
-  benchmark::Initialize(&argc, argv);
-  benchmark::RunSpecifiedBenchmarks();
+  return gallery_bench::run(argc, argv, lang::SolveItem::Goal::minimize, minimize);
 }
