@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "solver/online/compiled_problem.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "domains/rounding.h"
+#include "solver/online/compiler.h"
+#include "solver/online/search.h"
+
+namespace hcsp {
+
+std::string_view to_string(OnlineStatus status) {
+  switch (status) {
+    case OnlineStatus::solved:
+      return "solved";
+    case OnlineStatus::infeasible:
+      return "infeasible";
+    case OnlineStatus::undecided:
+      return "undecided";
+    default:
+      return "invalid";
+  }
+}
+
+struct CompiledProblem::Impl {
+  online::Compiled compiled;
+  online::Machine machine;
+  online::Search search;
+  std::vector<Interval> parameters;
+  std::vector<std::uint8_t> is_invalid;  // by parameter, at the first of a vector
+  std::vector<std::uint8_t> is_set;      // by parameter
+  std::size_t invalid_count = 0;
+  std::vector<Interval> values;   // by variable of the problem
+  std::vector<Interval> outputs;  // of the options, then what tells of tubes
+  std::size_t own_outputs;
+  OnlineStatus status = OnlineStatus::undecided;
+  Interval objective = Interval::empty();
+  std::string_view reason;
+  bool is_found = false;
+
+  Impl(online::Compiled all, const OnlineOptions& options)
+      : compiled(std::move(all)),
+        machine(compiled.prefix, compiled.most_registers(), compiled.most_core(), compiled.most_surfaces()),
+        search(machine, compiled.cases, compiled.givens, compiled.names.size(), compiled.has_objective,
+               {options.most_boxes, options.precision}),
+        parameters(compiled.parameter_values),
+        is_invalid(parameters.size()),
+        is_set(parameters.size()),
+        values(compiled.variables),
+        outputs(compiled.wanted() - (compiled.has_objective ? 1 : 0)),
+        own_outputs(options.outputs.size()) {}
+
+  template <class Number>
+  bool set(Parameter parameter, std::span<const Number> given);
+  void solve();
+  void read_solution(const online::Finding& finding);
+};
+
+namespace {
+
+bool is_valid(double x) { return std::isfinite(x); }
+bool is_valid(const Interval& x) { return !x.is_empty() && x.is_bounded(); }
+Interval as_interval(double x) { return Interval::raw(x, x); }
+Interval as_interval(const Interval& x) { return x; }
+
+}  // namespace
+
+template <class Number>
+bool CompiledProblem::Impl::set(Parameter parameter, std::span<const Number> given) {
+  if (parameter.size == 0 || parameter.first + parameter.size > parameters.size()) return false;
+  const bool is_good = given.size() == parameter.size &&
+                       std::all_of(given.begin(), given.end(), [](const Number& x) { return is_valid(x); });
+  std::uint8_t& mark = is_invalid[parameter.first];
+  invalid_count = invalid_count - mark + (is_good ? 0U : 1U);
+  mark = is_good ? 0 : 1;
+  if (!is_good) return false;
+  for (std::size_t i = 0; i < given.size(); ++i) {
+    parameters[parameter.first + i] = as_interval(given[i]);
+    is_set[parameter.first + i] = 1;
+  }
+  return true;
+}
+
+void CompiledProblem::Impl::solve() {
+  is_found = false;
+  objective = Interval::empty();
+  reason = {};
+  if (invalid_count > 0) {
+    const auto bad = std::find(is_invalid.begin(), is_invalid.end(), std::uint8_t{1}) - is_invalid.begin();
+    status = OnlineStatus::invalid;
+    reason = compiled.parameter_names[static_cast<std::size_t>(bad)];
+    return;
+  }
+  const RoundUpward guard;
+  compiled.followers.update(parameters, is_set);
+  machine.load(parameters);
+  const online::Finding& finding = search.run();
+  is_found = finding.is_found;
+  if (is_found) {
+    objective = Interval::raw(finding.lower, finding.best.hi());
+    read_solution(finding);
+  }
+  const bool is_refuted = !is_found && !finding.is_exhausted && finding.lower == kInfinity;
+  status = is_refuted                          ? OnlineStatus::infeasible
+           : is_found && !finding.is_exhausted ? OnlineStatus::solved
+                                               : OnlineStatus::undecided;
+  if (is_refuted && !compiled.names.empty()) reason = compiled.names[finding.refuted_by];
+}
+
+void CompiledProblem::Impl::read_solution(const online::Finding& finding) {
+  const online::CompiledCase& of = compiled.cases[finding.best_case];
+  machine.evaluate(of.proof, search.solution().first(of.proof.core()));
+  machine.evaluate_rest(of.proof);
+  const std::vector<online::Source>& sources = compiled.sources[finding.best_case];
+  for (std::size_t v = 0; v < values.size(); ++v) {
+    const online::Source& source = sources[v];
+    values[v] = source.is_register ? machine.value(source.reg) : source.value;
+  }
+  const std::size_t first = compiled.has_objective ? 1 : 0;
+  for (std::size_t i = 0; i < outputs.size(); ++i) outputs[i] = machine.value(of.proof.wanted[first + i]);
+  for (online::WantedTube& wanted : compiled.tubes)
+    wanted.tube.assign(std::span(outputs).subspan(wanted.first - first, wanted.size));
+}
+
+CompiledProblem::CompiledProblem(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+CompiledProblem::CompiledProblem(CompiledProblem&&) noexcept = default;
+CompiledProblem& CompiledProblem::operator=(CompiledProblem&&) noexcept = default;
+CompiledProblem::~CompiledProblem() = default;
+
+CompiledProblem::Parameter CompiledProblem::parameter(std::string_view name) const {
+  const online::Named& found = impl_->compiled.parameter_places.at(std::string(name));
+  return {found.first, found.size};
+}
+
+CompiledProblem::Variable CompiledProblem::variable(std::string_view name) const {
+  const online::Named& found = impl_->compiled.variable_places.at(std::string(name));
+  return {found.first, found.size};
+}
+
+CompiledProblem::Tube CompiledProblem::tube(std::string_view name) const {
+  const std::vector<online::WantedTube>& all = impl_->compiled.tubes;
+  const auto found = std::find_if(all.begin(), all.end(), [&](const auto& one) { return one.name == name; });
+  if (found == all.end()) throw std::out_of_range(fmt::format("compile: there is no tube {}", name));
+  return {static_cast<std::size_t>(found - all.begin())};
+}
+
+bool CompiledProblem::set(Parameter parameter, std::span<const double> values) noexcept {
+  return impl_->set(parameter, values);
+}
+bool CompiledProblem::set(Parameter parameter, std::span<const Interval> values) noexcept {
+  return impl_->set(parameter, values);
+}
+OnlineStatus CompiledProblem::solve() noexcept {
+  impl_->solve();
+  return impl_->status;
+}
+void CompiledProblem::forget() noexcept { impl_->search.forget(); }
+
+OnlineStatus CompiledProblem::status() const noexcept { return impl_->status; }
+Interval CompiledProblem::objective() const noexcept { return impl_->objective; }
+bool CompiledProblem::has_solution() const noexcept { return impl_->is_found; }
+std::span<const Interval> CompiledProblem::value(Variable variable) const noexcept {
+  const std::span<const Interval> all = impl_->values;
+  if (!impl_->is_found || variable.first + variable.size > all.size()) return {};
+  return all.subspan(variable.first, variable.size);
+}
+Interval CompiledProblem::value(RealVariable variable) const noexcept {
+  const std::span<const Interval> one = value(Variable{variable.id, 1});
+  return one.empty() ? Interval::empty() : one[0];
+}
+const PolynomialTube& CompiledProblem::value(Tube tube) const noexcept {
+  return impl_->compiled.tubes[tube.index].tube;
+}
+std::span<const Interval> CompiledProblem::outputs() const noexcept {
+  if (!impl_->is_found) return {};
+  return std::span<const Interval>(impl_->outputs).first(impl_->own_outputs);
+}
+std::string_view CompiledProblem::reason() const noexcept { return impl_->reason; }
+std::size_t CompiledProblem::boxes() const noexcept { return impl_->search.boxes(); }
+std::size_t CompiledProblem::cases() const noexcept { return impl_->compiled.cases.size(); }
+
+CompiledProblem compile(Problem& problem, const std::optional<Expr>& objective,
+                        const OnlineOptions& options) {
+  require(options.precision > 0, "compile: a precision of {}", options.precision);
+  online::Compiled compiled =
+      online::compile_cases(online::question_of(problem, objective, options.outputs), options.most_cases);
+  return CompiledProblem(std::make_unique<CompiledProblem::Impl>(std::move(compiled), options));
+}
+
+}  // namespace hcsp

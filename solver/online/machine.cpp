@@ -1,0 +1,242 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "solver/online/machine.h"
+
+#include <algorithm>
+
+#include "solver/expression/operators.h"
+
+namespace hcsp::online {
+
+namespace {
+
+constexpr bool is_step(Op op) { return op == Op::floor || op == Op::ceil || op == Op::sign; }
+
+}  // namespace
+
+Machine::Machine(const Prefix& prefix, std::size_t own_registers, std::size_t core, std::size_t surfaces)
+    : first_(prefix.size()),
+      values_(prefix.size() + own_registers),
+      slopes_((own_registers + 1) * core),
+      flags_(values_.size(), kDefined | kLipschitz),
+      needed_(values_.size()),
+      reals_(values_.size()),
+      real_slopes_(slopes_.size()),
+      sides_(surfaces, Side::both) {
+  for (const auto& [reg, value] : prefix.constants()) values_[reg] = value;
+}
+
+void Machine::load(std::span<const Interval> parameters) {
+  std::copy(parameters.begin(), parameters.end(), values_.begin());
+}
+
+void Machine::load_real(const Code& code) {
+  for (const Register reg : code.reads) reals_[reg] = 0.5 * values_[reg].lo() + 0.5 * values_[reg].hi();
+}
+
+// Of the branch that is taken; of both, and with a jump, where that is open.
+std::uint8_t Machine::flags_of_choice(const Instruction& at) const {
+  if (operators::is_true(values_[at.a])) return flags_[at.b];
+  if (operators::is_false(values_[at.a])) return flags_[at.c];
+  return static_cast<std::uint8_t>(flags_[at.b] & flags_[at.c] & kDefined);
+}
+
+template <Op kOp, class Operator>
+void Machine::run_one(const Instruction& at) {
+  const Interval &a = values_[at.a], &b = values_[at.b], &c = values_[at.c];
+  const Interval y = Operator::forward(a, b, c);
+  auto flags = static_cast<std::uint8_t>(flags_[at.a] & flags_[at.b]);
+  if constexpr (is_relation(kOp)) {
+    // False where a term is undefined.
+    values_[at.y] = (flags & kDefined) == 0 && operators::is_true(y) ? kEither : y;
+    flags_[at.y] = kDefined;
+    return;
+  } else if constexpr (is_boolean(kOp)) {
+    flags = kDefined;
+  } else if constexpr (kOp == Op::if_then_else) {
+    flags = flags_of_choice(at);
+  } else if constexpr (is_step(kOp)) {
+    if (!y.is_point()) flags &= kDefined;
+  } else if constexpr (kOp == Op::sqrt) {
+    // Where it is not defined the slopes are those of sqrt(max(a, 0)).
+    if (!(a.lo() >= 0.0)) flags &= kLipschitz;
+  } else if constexpr (!operators::is_total<Operator>) {
+    if (!Operator::defined(a, b, c)) flags = 0;
+    if (!operators::is_continuous<Operator>(a, b)) flags &= kDefined;
+  }
+  values_[at.y] = y;
+  flags_[at.y] = flags;
+}
+
+// One dispatch for a run of instructions of one operator.
+void Machine::run(std::span<const Instruction> code) {
+  for (const Instruction *at = code.data(), *end = at + code.size(); at != end;) {
+    with_operator(at->op, [&](auto known) {
+      do {
+        run_one<decltype(known)::op, typename decltype(known)::type>(*at++);
+      } while (at != end && at->op == decltype(known)::op);
+    });
+  }
+}
+
+void Machine::load(const Code& code, std::span<const Interval> box) {
+  std::copy(box.begin(), box.end(), values_.begin() + code.first());
+  std::fill_n(flags_.begin() + code.first(), box.size(), kDefined | kLipschitz);
+}
+
+void Machine::evaluate(const Code& code, std::span<const Interval> box) {
+  load(code, box);
+  run(code.values);
+}
+
+void Machine::evaluate_main(const Code& code, std::span<const Interval> box) {
+  load(code, box);
+  run(std::span(code.values).first(code.ends[Code::main].values));
+}
+
+bool Machine::evaluate_while_possible(const Code& code, std::span<const Interval> box, Code::Stage last) {
+  load(code, box);
+  const std::span<const Instruction> values = code.values;
+  Code::End done{};
+  for (std::size_t stage = Code::cheap; stage <= last; ++stage) {
+    const Code::End& end = code.ends[stage];
+    run(values.subspan(done.values, end.values - done.values));
+    for (std::size_t i = done.tests; i < end.tests; ++i) {
+      if (is_possible(code.tests[i])) continue;
+      refuted_by_ = code.tests[i].name;
+      return false;
+    }
+    done = end;
+  }
+  return true;
+}
+
+template <ChainRule::Kind kKind>
+void Machine::apply(const ChainRule& rule) {
+  using Kind = ChainRule::Kind;
+  const Interval *a = slopes_of(rule.a), *b = slopes_of(rule.b), *c = slopes_of(rule.c);
+  const Interval &va = values_[rule.a], &vb = values_[rule.b];
+  Interval* const y = &slopes_[(rule.y - first_ + 1) * columns_];
+  const auto set = [&](auto value_of) {
+    for (std::size_t k = 0; k < columns_; ++k) y[k] = value_of(k);
+  };
+  // a', or what is beyond the kink, or both.
+  const auto at_kink = [&](bool is_first, bool is_second, auto second) {
+    const Side side = is_first || is_second ? Side::both : sides_[rule.surface];
+    const bool is_chosen = side != Side::both, is_above = side == Side::above;
+    if (is_first || (is_chosen && is_above == rule.is_first_above))
+      return set([&](std::size_t k) { return a[k]; });
+    if (is_second || is_chosen) return set(second);
+    set([&](std::size_t k) { return join(a[k], second(k)); });
+  };
+  const auto one_of = [&](bool is_first, bool is_second, const Interval* first, const Interval* second) {
+    if (is_first) return set([&](std::size_t k) { return first[k]; });
+    if (is_second) return set([&](std::size_t k) { return second[k]; });
+    set([&](std::size_t k) { return join(first[k], second[k]); });
+  };
+  switch (kKind) {
+    case Kind::copy:
+      return set([&](std::size_t k) { return a[k]; });
+    case Kind::negate:
+      return set([&](std::size_t k) { return -a[k]; });
+    case Kind::add:
+      return set([&](std::size_t k) { return up::add(a[k], b[k]); });
+    case Kind::sub:
+      return set([&](std::size_t k) { return up::sub(a[k], b[k]); });
+    case Kind::min:
+      return at_kink(va.hi() <= vb.lo(), vb.hi() <= va.lo(), [&](std::size_t k) { return b[k]; });
+    case Kind::max:
+      return at_kink(va.lo() >= vb.hi(), vb.lo() >= va.hi(), [&](std::size_t k) { return b[k]; });
+    case Kind::choice:
+      return one_of(operators::is_true(va), operators::is_false(va), b, c);
+    case Kind::abs:
+      return at_kink(va.lo() >= 0.0, va.hi() <= 0.0, [&](std::size_t k) { return -a[k]; });
+    case Kind::constant:
+      return set([](std::size_t) { return Interval::raw(0.0, 0.0); });
+    case Kind::root: {
+      const Interval slope = va.lo() >= 0.0 ? values_[rule.sa] : Interval::raw(0.0, kInfinity);
+      return set([&](std::size_t k) { return up::mul(slope, a[k]); });
+    }
+    case Kind::scale:
+      return set([&](std::size_t k) { return up::mul(values_[rule.sa], a[k]); });
+    case Kind::scale_both:
+      return set([&](std::size_t k) {
+        return up::add(up::mul(values_[rule.sa], a[k]), up::mul(values_[rule.sb], b[k]));
+      });
+  }
+}
+
+bool Machine::find_open_surfaces(const Code& code, std::span<std::uint32_t> found, std::size_t& count) const {
+  count = 0;
+  for (const ChainRule& rule : code.chain) {
+    using Kind = ChainRule::Kind;
+    const bool is_kink = rule.kind == Kind::min || rule.kind == Kind::max;
+    if (!is_kink && rule.kind != Kind::abs) continue;
+    const Interval &a = values_[rule.a], &b = values_[rule.b];
+    const bool is_open = is_kink ? a.hi() > b.lo() && b.hi() > a.lo() : a.lo() < 0.0 && a.hi() > 0.0;
+    const auto end = found.begin() + static_cast<std::ptrdiff_t>(count);
+    if (!is_open || std::find(found.begin(), end, rule.surface) != end) continue;
+    if (count == found.size()) return false;
+    found[count++] = rule.surface;
+  }
+  return true;
+}
+
+void Machine::differentiate(const Code& code, std::uint64_t active, std::size_t slopes, std::size_t rules) {
+  run(std::span(code.slopes).first(slopes));
+  columns_ = static_cast<std::size_t>(__builtin_popcountll(active));
+  std::fill_n(slopes_.begin(), (code.core() + 1) * columns_, Interval::raw(0.0, 0.0));
+  std::size_t k = 0;
+  for (std::uint64_t left = active; left != 0; left &= left - 1, ++k) {
+    const auto v = static_cast<std::size_t>(__builtin_ctzll(left));
+    slopes_[(v + 1) * columns_ + k] = Interval::raw(1.0, 1.0);
+  }
+  for_each_rule(std::span(code.chain).first(rules),
+                [&](auto kind, const ChainRule& rule) { apply<kind()>(rule); });
+}
+
+bool Machine::narrow(const Code& code, Register reg, const Interval& value) {
+  const Interval met = meet(values_[reg], value);
+  if (reg >= code.first()) {
+    values_[reg] = met;
+    needed_[reg] = 1;
+  }
+  return !met.is_empty();
+}
+
+template <Op kOp, class Operator>
+bool Machine::revise_one(const Code& code, const Instruction& at) {
+  if constexpr (kOp == Op::if_then_else) {
+    // Only what is taken has to be defined, and to give the value.
+    const bool is_then = operators::is_true(values_[at.a]);
+    if (!is_then && !operators::is_false(values_[at.a])) return true;
+    return narrow(code, is_then ? at.b : at.c, values_[at.y]);
+  } else {
+    Interval a = values_[at.a], b = values_[at.b], c = values_[at.c];
+    Operator::backward(values_[at.y], a, b, c);
+    return narrow(code, at.a, a) && (at.arity < 2 || narrow(code, at.b, b));
+  }
+}
+
+bool Machine::backward(const Code& code, double best) {
+  for (const Instruction& at : code.real_path) needed_[at.y] = 0;
+  for (const Test& test : code.tests) {
+    refuted_by_ = test.name;
+    if (!narrow(code, test.reg, test.wanted)) return false;
+  }
+  if (!code.wanted.empty() && !narrow(code, code.wanted[0], Interval::raw(-kInfinity, best))) return false;
+  const std::span<const Instruction> path = code.real_path;
+  for (const Instruction *at = path.data(), *end = at + path.size(); at != end;) {
+    const bool alive = with_operator(at->op, [&](auto known) {
+      do {
+        if (needed_[at->y] != 0 &&
+            !revise_one<decltype(known)::op, typename decltype(known)::type>(code, *at))
+          return false;
+      } while (++at != end && at->op == decltype(known)::op);
+      return true;
+    });
+    if (!alive) return false;
+  }
+  return true;
+}
+
+}  // namespace hcsp::online

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+// Expressions in floating point: where to look, never what is so.
+#include <cmath>
+
+#include "solver/expression/operators.h"
+#include "solver/online/machine.h"
+
+namespace hcsp::online {
+
+namespace {
+
+template <Op kOp, class Operator>
+double value_of(double a, double b, double c) {
+  if constexpr (kOp == Op::neg) return -a;
+  if constexpr (kOp == Op::add) return a + b;
+  if constexpr (kOp == Op::sub) return a - b;
+  if constexpr (kOp == Op::mul) return a * b;
+  if constexpr (kOp == Op::div) return a / b;
+  if constexpr (kOp == Op::sqr) return a * a;
+  if constexpr (kOp == Op::sqrt) return std::sqrt(std::max(a, 0.0));
+  if constexpr (kOp == Op::abs) return std::abs(a);
+  if constexpr (kOp == Op::min || kOp == Op::logical_and) return std::min(a, b);
+  if constexpr (kOp == Op::max || kOp == Op::logical_or) return std::max(a, b);
+  if constexpr (kOp == Op::less) return a < b ? 1.0 : 0.0;
+  if constexpr (kOp == Op::less_equal) return a <= b ? 1.0 : 0.0;
+  if constexpr (kOp == Op::equal) return a == b ? 1.0 : 0.0;
+  if constexpr (kOp == Op::not_equal) return a != b ? 1.0 : 0.0;
+  if constexpr (kOp == Op::logical_not) return 1.0 - a;
+  if constexpr (kOp == Op::if_then_else) return a != 0.0 ? b : c;
+  if (!std::isfinite(a) || !std::isfinite(b)) return std::nan("");
+  const Interval y = Operator::forward(Interval::raw(a, a), Interval::raw(b, b), Interval::raw(c, c));
+  return 0.5 * y.lo() + 0.5 * y.hi();
+}
+
+}  // namespace
+
+void Machine::run_real(std::span<const Instruction> code) {
+  for (const Instruction *at = code.data(), *end = at + code.size(); at != end;) {
+    with_operator(at->op, [&](auto known) {
+      using Known = decltype(known);
+      do {
+        reals_[at->y] =
+            value_of<Known::op, typename Known::type>(reals_[at->a], reals_[at->b], reals_[at->c]);
+      } while (++at != end && at->op == Known::op);
+    });
+  }
+}
+
+void Machine::evaluate_real(const Code& code, std::span<const double> point) {
+  std::copy(point.begin(), point.end(), reals_.begin() + code.first());
+  run_real(code.values);
+}
+
+template <ChainRule::Kind kKind>
+void Machine::apply_real(const ChainRule& rule) {
+  using Kind = ChainRule::Kind;
+  const double *a = real_slopes_of(rule.a), *b = real_slopes_of(rule.b), *c = real_slopes_of(rule.c);
+  const double va = reals_[rule.a], vb = reals_[rule.b];
+  double* const y = &real_slopes_[(rule.y - first_ + 1) * real_columns_];
+  const auto set = [&](double by_a, const double* of_a, double by_b, const double* of_b) {
+    for (std::size_t v = 0; v < real_columns_; ++v) y[v] = by_a * of_a[v] + by_b * of_b[v];
+  };
+  const auto copy = [&](double sign, const double* of) {
+    for (std::size_t v = 0; v < real_columns_; ++v) y[v] = sign * of[v];
+  };
+  switch (kKind) {
+    case Kind::copy:
+      return copy(1.0, a);
+    case Kind::negate:
+      return copy(-1.0, a);
+    case Kind::add:
+      return set(1.0, a, 1.0, b);
+    case Kind::sub:
+      return set(1.0, a, -1.0, b);
+    case Kind::min:
+      return copy(1.0, va <= vb ? a : b);
+    case Kind::max:
+      return copy(1.0, va >= vb ? a : b);
+    case Kind::choice:
+      return copy(1.0, va != 0.0 ? b : c);
+    case Kind::abs:
+      return copy(va >= 0.0 ? 1.0 : -1.0, a);
+    case Kind::constant:
+      return copy(0.0, real_slopes_.data());
+    case Kind::root:
+    case Kind::scale:
+      return copy(reals_[rule.sa], a);
+    case Kind::scale_both:
+      return set(reals_[rule.sa], a, reals_[rule.sb], b);
+  }
+}
+
+void Machine::differentiate_real(const Code& code) {
+  run_real(code.slopes);
+  real_columns_ = code.core();
+  std::fill_n(real_slopes_.begin(), (code.core() + 1) * real_columns_, 0.0);
+  for (std::size_t v = 0; v < code.core(); ++v) real_slopes_[(v + 1) * real_columns_ + v] = 1.0;
+  for_each_rule(code.chain, [&](auto kind, const ChainRule& rule) { apply_real<kind()>(rule); });
+}
+
+}  // namespace hcsp::online

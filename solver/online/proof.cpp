@@ -1,0 +1,250 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "solver/online/proof.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "domains/interval/kernel.h"
+
+namespace hcsp::online {
+
+Proof::Proof(Machine& machine, std::size_t most_tests, std::size_t most_core)
+    : machine_(machine),
+      point_(most_core),
+      is_active_(most_tests),
+      is_solved_(most_tests),
+      rows_(most_tests),
+      pivoting_(most_tests, most_core),
+      solved_rows_(most_core),
+      columns_(most_core),
+      jacobian_(most_core * most_core),
+      inverse_(most_core * most_core),
+      radius_(most_core),
+      box_(most_core),
+      reach_(most_core),
+      slopes_(most_core * most_core),
+      residual_(most_core),
+      step_(most_core),
+      image_(most_core) {}
+
+bool Proof::find(const Code& code, std::span<const double> near, std::span<const Interval> domains) {
+  constexpr int kMostRounds = 4;
+  code_ = &code;
+  domains_ = domains;
+  size_ = code.core();
+  std::copy(near.begin(), near.end(), point_.begin());
+  std::fill_n(is_active_.begin(), code.tests.size(), std::uint8_t{0});
+  for (int round = 0; round < kMostRounds; ++round) {
+    if (!correct()) return false;
+    if (is_exact_ && holds_at_point()) return true;
+    if (!solve_exactly()) return false;
+    const std::size_t active_before = row_count_;
+    if (all_hold()) return true;
+    collect_rows();
+    if (row_count_ == active_before) return false;
+  }
+  return false;
+}
+
+void Proof::keep_within_domains() {
+  for (std::size_t v = 0; v < size_; ++v)
+    point_[v] = std::min(std::max(point_[v], domains_[v].lo()), domains_[v].hi());
+}
+
+// How far an unknown can move before it leaves its domain, where that is little.
+double Proof::room(std::size_t v) const {
+  const double x = point_[v];
+  return std::max(0.0, std::min({std::max(std::abs(x), 1.0), x - domains_[v].lo(), domains_[v].hi() - x}));
+}
+
+// Equations, and what an attempt before left undecided, or violated.
+void Proof::collect_rows() {
+  row_count_ = 0;
+  for (std::uint32_t i = 0; i < code_->tests.size(); ++i) {
+    const Test& test = code_->tests[i];
+    if (test.is_equation || is_active_[i] != 0) rows_[row_count_++] = i;
+  }
+}
+
+bool Proof::fill_matrix() {
+  machine_.differentiate_real(*code_);
+  pivoting_.start(row_count_);
+  for (std::size_t k = 0; k < row_count_; ++k) {
+    const Register reg = code_->tests[rows_[k]].reg;
+    for (std::size_t v = 0; v < size_; ++v) pivoting_.at(k, v) = machine_.real_slope(reg, v) * room(v);
+    pivoting_.right(k) = -machine_.real(reg);
+  }
+  return pivoting_.eliminate();
+}
+
+// Newton's method in floating point. Where a step is small the next would be far smaller.
+bool Proof::correct() {
+  constexpr int kMostSteps = 20;
+  constexpr double kSmall = 1e-12;  // next to what data play, or a kink may be on the way
+  collect_rows();
+  for (int step = 0; step < kMostSteps; ++step) {
+    keep_within_domains();
+    machine_.evaluate_real(*code_, {point_.data(), size_});
+    is_exact_ = std::all_of(rows_.begin(), rows_.begin() + static_cast<std::ptrdiff_t>(row_count_),
+                            [&](std::uint32_t i) { return machine_.real(code_->tests[i].reg) == 0.0; });
+    if (!fill_matrix()) return false;
+    double most = 0.0;
+    for (std::size_t k = 0; k < pivoting_.rank(); ++k) {
+      const std::uint32_t v = pivoting_.column(k);
+      const double change = pivoting_.solution(k) * room(v);
+      point_[v] += change;
+      most = std::max(most,
+                      std::abs(change) / std::max(std::abs(point_[v]), std::numeric_limits<double>::min()));
+    }
+    if (!(most < kInfinity)) return false;
+    if (most < kSmall) break;
+  }
+  keep_within_domains();
+  return true;
+}
+
+// Where all rests equations hold exactly, though no Newton's method could tell.
+bool Proof::holds_at_point() {
+  std::fill_n(is_solved_.begin(), code_->tests.size(), std::uint8_t{0});
+  for (std::size_t v = 0; v < size_; ++v) box_[v] = Interval::raw(point_[v], point_[v]);
+  return all_hold();
+}
+
+// The rows that pivots were found for, in the pivots' unknowns.
+bool Proof::solve_exactly() {
+  rank_ = pivoting_.rank();
+  std::fill_n(is_solved_.begin(), code_->tests.size(), std::uint8_t{0});
+  for (std::size_t k = 0; k < rank_; ++k) {
+    solved_rows_[k] = rows_[pivoting_.row(k)];
+    columns_[k] = pivoting_.column(k);
+    is_solved_[solved_rows_[k]] = 1;
+  }
+  for (std::size_t v = 0; v < size_; ++v) box_[v] = Interval::raw(point_[v], point_[v]);
+  if (rank_ == 0) return true;
+  for (std::size_t k = 0; k < rank_; ++k) {
+    for (std::size_t l = 0; l < rank_; ++l)
+      jacobian_[k * rank_ + l] = machine_.real_slope(code_->tests[solved_rows_[k]].reg, columns_[l]);
+  }
+  machine_.evaluate(*code_, {box_.data(), size_});
+  for (std::size_t k = 0; k < rank_; ++k) residual_[k] = machine_.value(code_->tests[solved_rows_[k]].reg);
+  std::fill_n(radius_.begin(), rank_, 0.0);
+  if (!precondition()) return false;
+  for (int attempt = 0; attempt < kAttempts; ++attempt) {
+    if (!expand()) return false;
+    // At a kink the slopes are of several sides: between them is the best inverse.
+    if (is_kinked_ && (!take_middle() || !precondition())) return false;
+    if (contract_to_solution()) return true;
+    for (std::size_t k = 0; k < rank_; ++k) radius_[k] *= kMore;
+  }
+  return false;
+}
+
+// Y, an inverse of the Jacobian at hand, and Y f(c): how far the solution may be.
+bool Proof::precondition() {
+  const std::size_t n = rank_ * rank_;
+  if (!invert({jacobian_.data(), n}, {inverse_.data(), n}, rank_)) return false;
+  for (std::size_t k = 0; k < rank_; ++k) {
+    Interval sum = Interval::raw(0.0, 0.0);
+    for (std::size_t l = 0; l < rank_; ++l) {
+      const double factor = inverse_[k * rank_ + l];
+      sum = up::add(sum, up::mul(Interval::raw(factor, factor), residual_[l]));
+    }
+    if (sum.is_empty() || !sum.is_bounded()) return false;
+    step_[k] = -sum;
+    constexpr double kRoom = 2.0, kLeast = 1e-16;
+    const double needed = kRoom * std::max(sum.hi(), -sum.lo()) + kLeast * std::abs(point_[columns_[k]]) +
+                          std::numeric_limits<double>::min();
+    radius_[k] = std::max(radius_[k], needed);
+  }
+  return true;
+}
+
+// F'(X), X around the point: where kinks are in X the hull of what it is on all sides of them, since along a
+// line through X it is one of these at almost every place.
+bool Proof::expand() {
+  std::copy_n(box_.begin(), size_, reach_.begin());
+  std::uint64_t active = 0;
+  for (std::size_t k = 0; k < rank_; ++k) {
+    const std::uint32_t v = columns_[k];
+    reach_[v] = Interval::raw(up::sub_down(point_[v], radius_[k]), point_[v] + radius_[k]);
+    active |= std::uint64_t{1} << v;
+  }
+  machine_.evaluate(*code_, {reach_.data(), size_});
+  for (std::size_t k = 0; k < rank_; ++k) {
+    const Register reg = code_->tests[solved_rows_[k]].reg;
+    if (!machine_.is_defined(reg) || !machine_.is_lipschitz(reg)) return false;
+  }
+  std::array<std::uint32_t, kMostSurfaces> surfaces{};
+  std::size_t open = 0;
+  if (!machine_.find_open_surfaces(*code_, surfaces, open)) open = 0;  // the hull of each kink by itself
+  is_kinked_ = open > 0;
+  std::fill_n(slopes_.begin(), rank_ * rank_, Interval::empty());
+  for (std::size_t sides = 0; sides < std::size_t{1} << open; ++sides) {
+    for (std::size_t s = 0; s < open; ++s)
+      machine_.set_side(surfaces[s], ((sides >> s) & 1U) != 0 ? Machine::Side::above : Machine::Side::below);
+    machine_.differentiate(*code_, active);
+    join_slopes(active);
+  }
+  for (std::size_t s = 0; s < open; ++s) machine_.set_side(surfaces[s], Machine::Side::both);
+  return true;
+}
+
+void Proof::join_slopes(std::uint64_t active) {
+  for (std::size_t k = 0; k < rank_; ++k) {
+    for (std::size_t l = 0; l < rank_; ++l) {
+      const std::uint64_t before = active & ((std::uint64_t{1} << columns_[l]) - 1);
+      const auto column = static_cast<std::size_t>(__builtin_popcountll(before));
+      Interval& slope = slopes_[k * rank_ + l];
+      slope = join(slope, machine_.slope(code_->tests[solved_rows_[k]].reg, column));
+    }
+  }
+}
+
+bool Proof::take_middle() {
+  for (std::size_t i = 0; i < rank_ * rank_; ++i) {
+    if (!slopes_[i].is_bounded()) return false;
+    jacobian_[i] = 0.5 * slopes_[i].lo() + 0.5 * slopes_[i].hi();
+  }
+  return true;
+}
+
+// K(X) = c - Y f(c) + (I - Y F'(X)) (X - c), within the interior of X: the map x - Y f(x) has a fixed point
+// in X (Brouwer), and Y is regular.
+bool Proof::contract_to_solution() {
+  for (std::size_t k = 0; k < rank_; ++k) {
+    Interval image = step_[k];
+    for (std::size_t l = 0; l < rank_; ++l) {
+      Interval slope = k == l ? Interval::raw(1.0, 1.0) : Interval::raw(0.0, 0.0);
+      for (std::size_t m = 0; m < rank_; ++m) {
+        const double factor = inverse_[k * rank_ + m];
+        if (factor != 0.0)
+          slope = up::sub(slope, up::mul(Interval::raw(factor, factor), slopes_[m * rank_ + l]));
+      }
+      image = up::add(image, up::mul(slope, up::sub(reach_[columns_[l]], box_[columns_[l]])));
+    }
+    const std::uint32_t v = columns_[k];
+    image_[k] = up::add(box_[v], image);
+    if (!(image_[k].lo() > reach_[v].lo() && image_[k].hi() < reach_[v].hi())) return false;
+  }
+  for (std::size_t k = 0; k < rank_; ++k) box_[columns_[k]] = image_[k];
+  return true;
+}
+
+// What is undecided is to be solved for in the next round.
+bool Proof::all_hold() {
+  for (std::size_t v = 0; v < size_; ++v) {
+    if (!leq(box_[v], domains_[v])) return false;
+  }
+  machine_.evaluate(*code_, {box_.data(), size_});
+  bool all = true;
+  for (std::uint32_t i = 0; i < code_->tests.size(); ++i) {
+    const Test& test = code_->tests[i];
+    if (is_solved_[i] != 0 && !test.strict) continue;
+    if (machine_.holds(test)) continue;
+    all = false;
+    if (!test.is_equation && test.wanted.hi() == 0.0 && machine_.is_defined(test.reg)) is_active_[i] = 1;
+  }
+  return all;
+}
+
+}  // namespace hcsp::online

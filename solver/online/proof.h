@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+// That a view's constraints have an exact solution near a point. Equations, and inequalities that are
+// undecided there, are solved for as many unknowns by Newton's method in floating point; that the solution
+// exists is Krawczyk's test (Krawczyk 1969; Neumaier 1990, chapter 5), the other unknowns being fixed, and
+// all other constraints hold on all of the box around it.
+#pragma once
+
+#include "solver/online/machine.h"
+#include "solver/online/pivoting.h"
+
+namespace hcsp::online {
+
+class Proof {
+ public:
+  Proof(Machine& machine, std::size_t most_tests, std::size_t most_core);
+
+  /// Looks for one near `near`, with every unknown of the core in `domains`. Then box() holds it, and the
+  /// machine is evaluated there. PRECONDITION: the thread rounds upward.
+  bool find(const Code& code, std::span<const double> near, std::span<const Interval> domains);
+  [[nodiscard]] std::span<const Interval> box() const { return {box_.data(), size_}; }
+
+ private:
+  void keep_within_domains();
+  [[nodiscard]] double room(std::size_t v) const;
+  void collect_rows();
+  bool fill_matrix();
+  bool correct();
+  bool holds_at_point();
+  bool solve_exactly();
+  bool precondition();
+  bool expand();
+  void join_slopes(std::uint64_t active);
+  bool take_middle();
+  bool contract_to_solution();
+  bool all_hold();
+
+  static constexpr int kAttempts = 4;
+  static constexpr double kMore = 8.0;  // room in the next attempt
+  static constexpr std::size_t kMostSurfaces = 4;
+
+  Machine& machine_;
+  const Code* code_ = nullptr;
+  std::span<const Interval> domains_;
+  std::size_t size_ = 0;
+  bool is_kinked_ = false;  // kinks are within reach
+  bool is_exact_ = false;   // in floating point all rows are 0
+  std::vector<double> point_;
+  std::vector<std::uint8_t> is_active_, is_solved_;  // by test
+  std::vector<std::uint32_t> rows_;                  // tests that are to be 0
+  std::size_t row_count_ = 0;
+  Pivoting pivoting_;
+  std::size_t rank_ = 0;
+  std::vector<std::uint32_t> solved_rows_, columns_;  // the first rank_
+  std::vector<double> jacobian_, inverse_, radius_;
+  std::vector<Interval> box_, reach_, slopes_, residual_, step_, image_;
+};
+
+}  // namespace hcsp::online

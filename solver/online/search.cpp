@@ -1,0 +1,379 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "solver/online/search.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "domains/interval/kernel.h"
+
+namespace hcsp::online {
+
+namespace {
+
+constexpr std::size_t kMostWaiting = 4096;
+constexpr double kMiddle = 0.5;
+
+template <class SizeOf>
+std::size_t most(const std::vector<CompiledCase>& cases, SizeOf size_of) {
+  std::size_t result = 0;
+  for (const CompiledCase& one : cases) result = std::max({result, size_of(one.search), size_of(one.proof)});
+  return result;
+}
+
+std::size_t most_tests(const std::vector<CompiledCase>& cases) {
+  return most(cases, [](const Code& code) { return code.tests.size(); });
+}
+std::size_t most_core(const std::vector<CompiledCase>& cases) {
+  return most(cases, [](const Code& code) { return code.core(); });
+}
+
+double middle(const Interval& x) {
+  if (!x.is_bounded()) return x.lo() > -kInfinity ? x.lo() : x.hi() < kInfinity ? x.hi() : 0.0;
+  return std::min(std::max(0.5 * x.lo() + 0.5 * x.hi(), x.lo()), x.hi());
+}
+
+// What parameters leave next to no play is data; near 0 next to none is 1e-12.
+bool is_thin(const Interval& x) {
+  constexpr double kThin = 1e-9, kSmall = 1e-3;
+  return x.is_bounded() && x.hi() - x.lo() <= kThin * std::max({std::abs(x.lo()), std::abs(x.hi()), kSmall});
+}
+
+// Where to cut: a wide domain by orders of magnitude.
+double cut_of(const Interval& x) {
+  constexpr double kWide = 16.0, kFar = 1024.0;
+  if (x.lo() < 0.0 && x.hi() > 0.0) {
+    const bool is_lopsided = -x.lo() > kWide * x.hi() || x.hi() > -kWide * x.lo();
+    return is_lopsided || !x.is_bounded() ? 0.0 : middle(x);
+  }
+  if (x.hi() <= 0.0) return -cut_of(-x);
+  if (x.hi() == kInfinity) return std::max(1.0, kFar * x.lo());
+  return x.hi() > kWide * x.lo() ? std::max(x.hi() / kWide, std::sqrt(x.lo()) * std::sqrt(x.hi()))
+                                 : middle(x);
+}
+
+}  // namespace
+
+Search::Search(Machine& machine, const std::vector<CompiledCase>& cases, const Givens& givens,
+               std::size_t names, bool has_objective, const Limits& limits)
+    : machine_(machine),
+      contraction_(machine, most_tests(cases), most_core(cases)),
+      proof_(machine, most_tests(cases), most_core(cases)),
+      cases_(cases),
+      givens_(givens),
+      has_objective_(has_objective),
+      limits_(limits),
+      order_(cases.size()),
+      refutations_(names),
+      last_(cases.size()),
+      likely_(cases.size()),
+      provable_(cases.size()),
+      domains_(most_core(cases)),
+      proof_domains_(most_core(cases)),
+      box_(most_core(cases)),
+      part_(most_core(cases)),
+      solution_(most_core(cases)),
+      waiting_(kMostWaiting, most_core(cases)),
+      candidate_(most_core(cases)),
+      size_(most_core(cases)) {
+  std::iota(order_.begin(), order_.end(), std::size_t{0});
+  for (std::size_t i = 0; i < cases.size(); ++i) {
+    last_[i].search.resize(cases[i].search.core());
+    last_[i].proof.resize(cases[i].proof.core());
+  }
+}
+
+void Search::forget() {
+  for (Last& last : last_) last.is_known = false;
+}
+
+const Finding& Search::run() {
+  finding_ = {false, 0, Interval::raw(kInfinity, kInfinity), kInfinity, false, 0};
+  std::fill(refutations_.begin(), refutations_.end(), 0U);
+  std::fill(provable_.begin(), provable_.end(), Provable::unknown);
+  is_any_provable_ = Provable::unknown;
+  boxes_ = 0;
+  machine_.evaluate(givens_.always);
+  if (is_refuted(givens_.required)) return finding_;
+  for (const std::size_t number : order_) {
+    run_case(number);
+    if (finding_.is_found && !has_objective_) break;
+  }
+  if (!finding_.is_found) {
+    find_reason();
+    return finding_;
+  }
+  const auto place = std::find(order_.begin(), order_.end(), finding_.best_case);
+  std::rotate(order_.begin(), place, place + 1);
+  finding_.lower = std::min(finding_.lower, finding_.best.lo());
+  return finding_;
+}
+
+// A relation that refutes all cases, or else one that refuted most.
+void Search::find_reason() {
+  finding_.refuted_by = static_cast<std::uint32_t>(
+      std::max_element(refutations_.begin(), refutations_.end()) - refutations_.begin());
+  machine_.evaluate(givens_.late);
+  if (!is_refuted(givens_.reasons)) return;
+  finding_.lower = kInfinity;
+  finding_.is_exhausted = false;
+}
+
+// What has an objective above this is of no interest.
+double Search::cut_off() const { return has_objective_ ? finding_.best.hi() : kInfinity; }
+
+// Whether what is there could be no better than what is known, to the precision.
+bool Search::is_good_enough(double lower) const {
+  return finding_.is_found && lower >= finding_.best.hi() - limits_.precision;
+}
+
+void Search::run_case(std::size_t number) {
+  const CompiledCase& of = cases_[number];
+  case_ = number;
+  if (is_refuted_by_givens(number)) return;
+  for (const Register factor : of.search.nonzero) {
+    if (!machine_.value(factor).contains(0.0)) continue;
+    finding_.is_exhausted = true;  // nothing is known of what is defined by a division by 0
+    finding_.lower = -kInfinity;
+    return;
+  }
+  if (!find_domains(of.search, of.search_domains, false, domains_)) return;
+  if (last_[number].is_known && !finding_.is_found) try_last(of);
+  if (finding_.is_found && !has_objective_) return;
+  explore(of);
+}
+
+// The first of some tests that holds nowhere.
+bool Search::is_refuted(std::span<const Test> tests) {
+  for (const Test& test : tests) {
+    if (machine_.is_possible(test)) continue;
+    finding_.refuted_by = test.name;
+    return true;
+  }
+  return false;
+}
+
+bool Search::is_refuted_by_givens(std::size_t number) {
+  const Code& code = cases_[number].search;
+  const auto refutes = [&](std::size_t i) {
+    if (machine_.is_possible(code.conditions[i])) return false;
+    ++refutations_[code.conditions[i].name];
+    likely_[number] = i;
+    return true;
+  };
+  if (likely_[number] < code.quick && refutes(likely_[number])) return true;
+  for (std::size_t i = 0; i < code.quick; ++i) {
+    if (refutes(i)) return true;
+  }
+  machine_.evaluate(code.prelude);
+  for (std::size_t i = code.quick; i < code.conditions.size(); ++i) {
+    if (refutes(i)) return true;
+  }
+  return false;
+}
+
+// Whether all that is given of a proof is certain; then its prelude is evaluated.
+bool Search::is_provable(const CompiledCase& of) {
+  const auto all_hold = [&](std::span<const Test> tests) {
+    return std::all_of(tests.begin(), tests.end(), [&](const Test& test) { return machine_.holds(test); });
+  };
+  if (is_any_provable_ == Provable::unknown) {
+    machine_.evaluate(givens_.proof);
+    is_any_provable_ = all_hold(givens_.certain) ? Provable::yes : Provable::no;
+  }
+  if (is_any_provable_ == Provable::no) return false;
+  if (provable_[case_] == Provable::unknown) {
+    machine_.evaluate(of.proof.prelude);
+    machine_.load_real(of.proof);
+    const bool is_regular =
+        std::none_of(of.proof.nonzero.begin(), of.proof.nonzero.end(),
+                     [&](Register factor) { return machine_.value(factor).contains(0.0); });
+    provable_[case_] = is_regular && all_hold(of.proof.conditions) ? Provable::yes : Provable::no;
+  }
+  return provable_[case_] == Provable::yes;
+}
+
+// Domains as declared and as parameters bound them: of all that could be, or of what certainly is.
+bool Search::find_domains(const Code& code, std::span<const Interval> declared, bool is_inner,
+                          std::span<Interval> domains) {
+  std::copy(declared.begin(), declared.end(), domains.begin());
+  for (const CoreBound& bound : code.bounds) {
+    const Interval& value = machine_.value(bound.reg);
+    if (value.is_empty()) return false;
+    const double end = bound.is_upper == is_inner ? value.lo() : value.hi();
+    Interval& domain = domains[bound.v];
+    domain = meet(domain, bound.is_upper ? Interval::raw(-kInfinity, end) : Interval::raw(end, kInfinity));
+    if (domain.is_empty()) return false;
+  }
+  return true;
+}
+
+void Search::try_last(const CompiledCase& of) {
+  std::copy(last_[case_].proof.begin(), last_[case_].proof.end(), candidate_.begin());
+  try_point(of, kMiddle);
+}
+
+// The middle of a box, and 0 where that is at an end: where all rests, equations are often singular, and hold
+// exactly. Where kinks or inequalities meet exactly, data that are a little aside may be clear of them.
+void Search::try_box(const CompiledCase& of, std::span<const Interval> box, bool is_leaf) {
+  bool has_zero = false;
+  for (std::size_t v = 0; v < box.size(); ++v) {
+    const double x = middle(box[v]);
+    part_[v] = Interval::raw(x, x);
+    has_zero = has_zero || (x != 0.0 && (box[v].lo() == 0.0 || box[v].hi() == 0.0));
+  }
+  if (try_part(of, kMiddle)) return;
+  for (const double place : {0.25, 0.75}) {
+    if (is_leaf && try_part(of, place)) return;
+  }
+  if (!has_zero) return;
+  for (std::size_t v = 0; v < box.size(); ++v) {
+    if (box[v].lo() == 0.0 || box[v].hi() == 0.0) part_[v] = Interval::raw(0.0, 0.0);
+  }
+  try_part(of, kMiddle);
+}
+
+// A point of the search's core in terms of the proof's.
+bool Search::try_part(const CompiledCase& of, double place) {
+  machine_.evaluate(of.search, {part_.data(), of.search.core()});
+  machine_.evaluate_rest(of.search);
+  for (std::size_t v = 0; v < of.candidate.size(); ++v) {
+    const Source& source = of.candidate[v];
+    const Interval& x = source.is_register ? machine_.value(source.reg) : source.value;
+    if (x.is_empty()) return false;
+    candidate_[v] = middle(x);
+  }
+  return try_point(of, place);
+}
+
+// Data at a place within their play.
+void Search::put_data(const Code& code, double place) {
+  for (std::size_t v = 0; v < code.core(); ++v) {
+    const Interval& x = proof_domains_[v];
+    if (is_thin(x)) candidate_[v] = x.lo() + place * (x.hi() - x.lo());
+  }
+}
+
+bool Search::try_point(const CompiledCase& of, double place) {
+  if (!is_provable(of)) return false;
+  const std::size_t core = of.proof.core();
+  if (!find_domains(of.proof, of.proof_domains, true, proof_domains_)) return false;
+  put_data(of.proof, place);
+  if (!proof_.find(of.proof, {candidate_.data(), core}, {proof_domains_.data(), core})) return false;
+  const Interval value = has_objective_ ? machine_.value(of.proof.wanted[0]) : Interval::raw(0.0, 0.0);
+  if (has_objective_ && !machine_.is_defined(of.proof.wanted[0])) return false;
+  if (finding_.is_found && !(value.hi() < finding_.best.hi())) return true;
+  finding_.is_found = true;
+  finding_.best = value;
+  finding_.best_case = case_;
+  std::copy(proof_.box().begin(), proof_.box().end(), solution_.begin());
+  Last& last = last_[case_];
+  for (std::size_t v = 0; v < core; ++v) last.proof[v] = middle(solution_[v]);
+  machine_.evaluate_rest(of.proof);
+  for (std::size_t v = 0; v < of.found.size(); ++v) {
+    const Source& source = of.found[v];
+    last.search[v] = middle(source.is_register ? machine_.value(source.reg) : source.value);
+  }
+  last.is_known = true;
+  return true;
+}
+
+// Data are never cut.
+void Search::find_active(const Code& code) {
+  active_ = 0;
+  for (std::size_t v = 0; v < code.core(); ++v) {
+    const Interval& x = domains_[v];
+    if (!is_thin(x)) active_ |= std::uint64_t{1} << v;
+  }
+}
+
+// Whether equations leave unknowns free: then solutions are not only where boxes end.
+bool Search::has_freedom(const Code& code) const {
+  const auto equations =
+      std::count_if(code.tests.begin(), code.tests.end(), [](const Test& test) { return test.is_equation; });
+  return equations < __builtin_popcountll(active_);
+}
+
+void Search::note_size(std::span<const Interval> box) {
+  for (std::size_t v = 0; v < box.size(); ++v)
+    size_[v] = box[v].is_bounded() ? std::max(std::abs(box[v].lo()), std::abs(box[v].hi())) : 1.0;
+}
+
+// Whether to cut a box would tell no more: it is settled, or a speck on which the objective is known well
+// enough.
+bool Search::is_leaf(std::span<const Interval> box) const {
+  constexpr double kSpeck = 1e-6, kKnown = 0.25;
+  if (contraction_.is_settled() || active_ == 0) return true;
+  if (!has_objective_ || !(contraction_.upper() - contraction_.lower() <= kKnown * limits_.precision))
+    return false;
+  for (std::size_t v = 0; v < box.size(); ++v) {
+    if (((active_ >> v) & 1U) != 0 && !(box[v].hi() - box[v].lo() <= kSpeck * size_[v])) return false;
+  }
+  return true;
+}
+
+void Search::explore(const CompiledCase& of) {
+  const Code& code = of.search;
+  const std::size_t core = code.core();
+  find_active(code);
+  const bool is_free = has_objective_ && has_freedom(code);
+  waiting_.clear();
+  waiting_.push({domains_.data(), core}, -kInfinity);
+  const std::span<Interval> box{box_.data(), core};
+  bool is_sized = false;
+  while (!waiting_.empty()) {
+    if (++boxes_ > limits_.boxes) {
+      finding_.is_exhausted = true;
+      finding_.lower = std::min(finding_.lower, has_objective_ ? waiting_.lower() : 0.0);
+      return;
+    }
+    waiting_.pop(box);
+    const bool is_near = finding_.is_found && finding_.best_case == case_;
+    const std::span<const double> near =
+        is_near ? std::span<const double>(last_[case_].search) : std::span<const double>{};
+    if (!contraction_.contract(code, box, active_, cut_off(), near)) {
+      if (contraction_.refuted_by() != Contraction::kBound) ++refutations_[contraction_.refuted_by()];
+      continue;
+    }
+    if (!is_sized) note_size(box);
+    is_sized = true;
+    const double lower = has_objective_ ? contraction_.lower() : 0.0;
+    const bool is_last = is_leaf(box);
+    const bool is_promising = is_free && !is_good_enough(contraction_.expected());
+    if (!is_good_enough(lower) && (is_last || is_promising || !finding_.is_found)) try_box(of, box, is_last);
+    if (finding_.is_found && !has_objective_) return;
+    if (is_last || is_good_enough(lower)) {
+      if (lower <= cut_off()) finding_.lower = std::min(finding_.lower, lower);
+      continue;
+    }
+    split(code, box, lower);
+  }
+}
+
+// Cuts the widest side, relative to how large it is.
+void Search::split(const Code& code, std::span<const Interval> box, double lower) {
+  std::size_t widest = code.core();
+  double most_width = 0.0;
+  for (std::size_t v = 0; v < code.core(); ++v) {
+    const Interval& x = box[v];
+    if (((active_ >> v) & 1U) == 0) continue;
+    const double magnitude = std::max(std::abs(x.lo()), std::abs(x.hi()));
+    const double own = magnitude < kInfinity ? (x.hi() - x.lo()) / std::max(1.0, magnitude) : kInfinity;
+    if (widest < code.core() && !(own > most_width)) continue;
+    widest = v;
+    most_width = own;
+  }
+  const double cut = cut_of(box[widest]);
+  if (!waiting_.has_room_for(2) || !(box[widest].lo() < cut && cut < box[widest].hi())) {
+    finding_.lower = std::min(finding_.lower, lower);
+    return;
+  }
+  std::copy(box.begin(), box.end(), part_.begin());
+  const std::span<Interval> part{part_.data(), box.size()};
+  part[widest] = Interval::raw(cut, box[widest].hi());
+  waiting_.push(part, lower);
+  part[widest] = Interval::raw(box[widest].lo(), cut);
+  waiting_.push(part, lower);
+}
+
+}  // namespace hcsp::online

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: Apache-2.0
+// Branch and bound over the cases of a compiled problem, each in terms of its core, on room that is allocated
+// once: first the case of the last solution, from where that was; then all the others.
+#pragma once
+
+#include "solver/online/contraction.h"
+#include "solver/online/givens.h"
+#include "solver/online/proof.h"
+#include "solver/online/waiting_boxes.h"
+
+namespace hcsp::online {
+
+/// Where the value of an unknown is read: in a register, or it is what is known anyway.
+struct Source {
+  bool is_register;
+  Register reg;
+  Interval value;
+};
+
+/// A case as code, and where its solutions are read.
+struct CompiledCase {
+  Code search, proof;
+  std::vector<Interval> search_domains, proof_domains;  ///< declared, by unknown of each core
+  std::vector<Source> candidate;  ///< by unknown of the proof's core: what gives it in the search
+  std::vector<Source> found;      ///< by unknown of the search's core: what gives it in the proof
+};
+
+struct Limits {
+  std::size_t boxes;  ///< that one solve looks at
+  double precision;   ///< what cannot better the objective by more than this is left
+};
+
+/// What is known of a problem after a solve.
+struct Finding {
+  bool is_found;             ///< a solution is proven
+  std::size_t best_case;     ///< that it belongs to
+  Interval best;             ///< the objective's value there
+  double lower;              ///< of the objective of all solutions; +oo where there are none
+  bool is_exhausted;         ///< the limit of boxes was met, or a case could not be looked at
+  std::uint32_t refuted_by;  ///< a relation that refuted most
+};
+
+class Search {
+ public:
+  Search(Machine& machine, const std::vector<CompiledCase>& cases, const Givens& givens, std::size_t names,
+         bool has_objective, const Limits& limits);
+
+  /// PRECONDITION: the parameters are in the machine, and the thread rounds upward.
+  const Finding& run();
+  /// The best solution: the core of its case's proof.
+  [[nodiscard]] std::span<const Interval> solution() const { return solution_; }
+  [[nodiscard]] std::size_t boxes() const { return boxes_; }
+  /// Forgets where the last solutions were.
+  void forget();
+
+ private:
+  void run_case(std::size_t number);
+  bool is_refuted(std::span<const Test> tests);
+  bool is_refuted_by_givens(std::size_t number);
+  void find_reason();
+  bool is_provable(const CompiledCase& of);
+  bool find_domains(const Code& code, std::span<const Interval> declared, bool is_inner,
+                    std::span<Interval> domains);
+  void try_last(const CompiledCase& of);
+  void try_box(const CompiledCase& of, std::span<const Interval> box, bool is_leaf);
+  bool try_part(const CompiledCase& of, double place);
+  bool try_point(const CompiledCase& of, double place);
+  void put_data(const Code& code, double place);
+  void find_active(const Code& code);
+  void explore(const CompiledCase& of);
+  void split(const Code& code, std::span<const Interval> box, double lower);
+  [[nodiscard]] bool has_freedom(const Code& code) const;
+  void note_size(std::span<const Interval> box);
+  [[nodiscard]] bool is_leaf(std::span<const Interval> box) const;
+  [[nodiscard]] double cut_off() const;
+  [[nodiscard]] bool is_good_enough(double lower) const;
+
+  Machine& machine_;
+  Contraction contraction_;
+  Proof proof_;
+  const std::vector<CompiledCase>& cases_;
+  const Givens& givens_;
+  bool has_objective_;
+  Limits limits_;
+  Finding finding_{};
+  std::size_t case_ = 0, boxes_ = 0;
+  std::vector<std::size_t> order_;          // of the cases
+  std::vector<std::uint32_t> refutations_;  // by name
+  struct Last {
+    bool is_known = false;
+    std::vector<double> search, proof;  // points of the cores
+  };
+  std::vector<Last> last_;           // by case
+  std::vector<std::size_t> likely_;  // by case: a condition that refuted it
+  enum class Provable : std::uint8_t { unknown, no, yes };
+  Provable is_any_provable_ = Provable::unknown;
+  std::vector<Provable> provable_;  // by case
+  std::uint64_t active_ = 0;
+  std::vector<Interval> domains_, proof_domains_, box_, part_, solution_;
+  WaitingBoxes waiting_;
+  std::vector<double> candidate_, size_;  // size_: by unknown of the core, the case's first box
+};
+
+}  // namespace hcsp::online
