@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "domains/rounding.h"
 #include "solver/contractors/delay.h"
 #include "solver/contractors/integrality.h"
 #include "solver/problem_impl.h"
@@ -41,7 +42,52 @@ VectorVariable Problem::vector(std::string name, const Box& domain) {
   return impl_->add_vector(name, domain);
 }
 
+RealVariable Problem::parameter(std::string name, const Interval& value) {
+  const RealVariable given = real(std::move(name), value);
+  impl_->parameters.insert(given.id);
+  return given;
+}
+
+VectorVariable Problem::parameter_vector(std::string name, const Box& value) {
+  const VectorVariable given = vector(std::move(name), value);
+  for (std::size_t i = 0; i < given.dim; ++i) impl_->parameters.insert(given.id + static_cast<VariableId>(i));
+  return given;
+}
+
+RealVariable Problem::parameter(std::string name, Expr follows) {
+  const NodeId node = impl_->node_of(follows);
+  const RealVariable given = parameter(std::move(name), impl_->value_of_parameters(node));
+  impl_->followed.emplace(given.id, node);
+  return given;
+}
+
+VectorVariable Problem::parameter_vector(std::string name, const VectorExpr& follows) {
+  Box value(static_cast<Eigen::Index>(follows.size()));
+  for (std::size_t i = 0; i < follows.size(); ++i)
+    value[static_cast<Eigen::Index>(i)] = impl_->value_of_parameters(impl_->node_of(follows[i]));
+  const VectorVariable given = parameter_vector(std::move(name), value);
+  for (std::size_t i = 0; i < given.dim; ++i)
+    impl_->followed.emplace(given.id + static_cast<VariableId>(i), follows[i].node());
+  return given;
+}
+
+// Empty where it is undefined.
+Interval Problem::Impl::value_of_parameters(NodeId id) const {
+  const RoundUpward guard;
+  const Program program(dag, {id});
+  Evaluation evaluation(program);
+  for (std::uint32_t i = 0; i < program.inputs().size(); ++i) {
+    const Input& input = program.inputs()[i];
+    require(input.kind == Input::Kind::real && parameters.contains(input.variable),
+            "Problem: a parameter that follows what is no parameter");
+    evaluation.set(i, graph.initial<Interval>(input.variable));
+  }
+  evaluation.forward();
+  return evaluation.defined(program.root()) ? evaluation.get(program.root()) : Interval::empty();
+}
+
 void Problem::set_time_line(TimeLine line) {
+  require(impl_->phases == nullptr, "Problem: there is one time line, and it has phases");
   require(impl_->line == nullptr, "Problem: there is one time line, and it is set already");
   impl_->line = std::make_shared<const TimeLine>(std::move(line));
 }
@@ -49,6 +95,7 @@ void Problem::set_time_line(TimeLine line) {
 const std::shared_ptr<const TimeLine>& Problem::time_line() const { return impl_->line; }
 
 TubeVariable Problem::tube(std::string name, std::size_t dim) {
+  if (impl_->phases != nullptr) return impl_->add_phase_tube(name, dim);
   impl_->need_line();
   return tube(std::move(name), Tube(impl_->line, dim));
 }
@@ -113,6 +160,7 @@ VectorExpr Problem::operator()(VectorVariable x) { return impl_->components(x); 
 VectorExpr Problem::operator()(TubeVariable x) { return impl_->inputs(Input::Kind::tube, x.id, x.dim); }
 
 VectorExpr Problem::at(TubeVariable x, double t) {
+  if (impl_->phases != nullptr) return at(x, constant(Interval(t)));
   impl_->need_line();
   const auto gate = impl_->line->gate_at(t);
   require(gate.has_value(), "Problem: {} is not an instant of the time line", t);
@@ -121,6 +169,11 @@ VectorExpr Problem::at(TubeVariable x, double t) {
 }
 
 VectorExpr Problem::at(TubeVariable x, Expr instant) {
+  if (impl_->phases != nullptr) {
+    const auto gate = impl_->phases->gate_of(instant);
+    require(gate.has_value(), "Problem: an instant that is no gate, on a time line with phases");
+    return impl_->inputs(Input::Kind::gate, x.id, x.dim, *gate);
+  }
   impl_->need_line();
   impl_->require_all_time("an instant to be found");
   const NodeId node = impl_->node_of(instant);
@@ -192,7 +245,7 @@ Expr Problem::instant(std::string name) {
 }
 
 Expr Problem::time() {
-  impl_->need_line();
+  if (impl_->phases == nullptr) impl_->need_line();
   return impl_->input(Input::Kind::time, 0, 0);
 }
 
@@ -202,6 +255,9 @@ void Problem::use_fast_paths(bool use) { impl_->fast_paths = use; }
 const std::string& Problem::name() const { return impl_->name; }
 const ContractorGraph& Problem::graph() const { return impl_->graph; }
 
-Result Problem::propagate(const PropagationOptions& options) { return run_problem(impl_->view(), options); }
+Result Problem::propagate(const PropagationOptions& options) {
+  define_phases();
+  return run_problem(impl_->view(), options);
+}
 
 }  // namespace hcsp

@@ -18,6 +18,7 @@
 #include "solver/engine/graph.h"
 #include "solver/engine/propagation.h"
 #include "solver/expression/expr.h"
+#include "solver/phases/phase_error.h"
 #include "solver/result.h"
 #include "solver/search/search_options.h"
 
@@ -66,6 +67,13 @@ struct Window {
   double to;
 };
 
+class Problem;
+namespace online {
+struct Question;
+Question question_of(Problem& problem, const std::optional<Expr>& objective,
+                     const std::vector<Expr>& outputs);
+}  // namespace online
+
 class Problem {
  public:
   explicit Problem(std::string name);
@@ -82,6 +90,13 @@ class Problem {
   VectorVariable vector(std::string name, const Box& domain);
   /// A matrix, as the vector of its components row after row.
   VectorVariable matrix(std::string name, std::size_t rows, const Box& domain);
+  /// A number that is given: it has every value of the domain for all that is asked, is never solved for, and
+  /// never cut. compile() can change it from one solve to the next.
+  RealVariable parameter(std::string name, const Interval& value);
+  VectorVariable parameter_vector(std::string name, const Box& value);
+  /// The same, of a value that is an expression of other parameters until it is set itself.
+  RealVariable parameter(std::string name, Expr follows);
+  VectorVariable parameter_vector(std::string name, const VectorExpr& follows);
   /// Declares what of a number's domain, or a component's, certainly belongs to it, where the ends are
   /// numbers that no double holds: a proof of a solution keeps to that. Otherwise all of it does.
   void set_certain_domain(VariableId id, const Interval& certain);
@@ -90,6 +105,26 @@ class Problem {
   /// The one time line of the problem; to be set before the first tube.
   void set_time_line(TimeLine line);
   [[nodiscard]] const std::shared_ptr<const TimeLine>& time_line() const;
+  /// Or a time line of phases, whose instants are unknown: phase i takes durations[i], which is not negative;
+  /// the last ends at `end`, the sum of them. Tubes are polynomials on each phase, defined by
+  /// constrain_derivative() or by x == f; what else is stated of them is decided for every t. What they
+  /// cannot do throws PhaseError, a std::invalid_argument, when it is stated or when define_phases() is
+  /// called.
+  void set_phases(Expr end, const VectorExpr& durations);
+  /// How many phases there are; 0 on any other time line.
+  [[nodiscard]] std::size_t phases() const;
+  /// The instant after k phases; std::invalid_argument where there is none.
+  Expr gate(std::size_t k);
+  /// Which gate an instant is, if any.
+  [[nodiscard]] std::optional<std::size_t> gate_at(Expr instant) const;
+  /// What is stated while body() runs speaks of the time between two gates, and defines no tube;
+  /// std::invalid_argument unless from < to.
+  void during_phases(std::size_t from, std::size_t to, const std::function<void()>& body);
+  /// The tube that is values[i] throughout phase i; results do not show it.
+  TubeVariable hold(const std::vector<VectorExpr>& values);
+  /// With phases: turns what was stated into relations between reals. Nothing can be stated after; what
+  /// solves calls it.
+  void define_phases();
   TubeVariable tube(std::string name, std::size_t dim);
   TubeVariable tube(std::string name, const Tube& domain);
   /// Declares which gates of a given tube are readings, for explanations of infeasibility.
@@ -111,9 +146,11 @@ class Problem {
   Expr component(VectorVariable x, std::size_t i);
   /// The tube at the time at hand.
   VectorExpr operator()(TubeVariable x);
-  /// The tube at an instant of the time line; std::invalid_argument if t is none.
+  /// The tube at an instant of the time line; std::invalid_argument if t is none. With phases, 0 is the one
+  /// that is known.
   VectorExpr at(TubeVariable x, double t);
   /// The tube at an instant to be found, an expression of reals; on the time line, or what uses it is false.
+  /// With phases, at a gate; std::invalid_argument elsewhere. A tube that jumps there is what comes after.
   VectorExpr at(TubeVariable x, Expr instant);
   /// The tube as it was `delay` ago, or will be where that is negative: x(t - delay) at the time at hand. Of
   /// instants before the time line, or after it, nothing is known.
@@ -137,6 +174,9 @@ class Problem {
   // Constraints. `name` is what statistics and explanations call it.
   /// A relation. With tubes at the time at hand in it, it holds at every instant.
   void constrain(std::string name, Expr relation);
+  /// A relation that follows from the constraints, or that may be assumed: searches use it, and what they say
+  /// of all solutions, or of the best, is relative to it. No solution's proof has to show it.
+  void imply(std::string name, Expr relation);
   /// A relation that holds at some instant.
   void constrain_sometime(std::string name, Expr relation);
   /// What is stated while body() runs speaks of the instants of a window, or of all: "every t" above and
@@ -211,6 +251,8 @@ class Problem {
   [[nodiscard]] const ContractorGraph& graph() const;
 
  private:
+  friend online::Question online::question_of(Problem& problem, const std::optional<Expr>& objective,
+                                              const std::vector<Expr>& outputs);
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };

@@ -14,10 +14,19 @@
 namespace hcsp {
 
 void Problem::constrain(std::string name, Expr relation) {
-  if (impl_->alternative == nullptr) impl_->relations.push_back(relation.node());
-  impl_->state(
-      make_relation_contractor(std::move(name), impl_->dag, impl_->relation_of(relation), impl_->context()),
-      true);
+  impl_->state_relation(std::move(name), relation, false);
+}
+
+void Problem::imply(std::string name, Expr relation) {
+  require(impl_->alternative == nullptr, "Problem: {} is implied within an alternative", name);
+  impl_->state_relation(std::move(name), relation, true);
+}
+
+void Problem::Impl::state_relation(std::string stated, Expr relation, bool is_implied) {
+  const NodeId node = relation_of(relation);
+  if (phases != nullptr) return state_on_phases({std::move(stated), node, is_implied});
+  if (alternative == nullptr) relations.push_back({stated, node, is_implied});
+  state(make_relation_contractor(std::move(stated), dag, node, context()), true);
 }
 
 void Problem::constrain_sometime(std::string name, Expr relation) {
@@ -58,6 +67,11 @@ void Problem::constrain_at_least(std::string name, std::size_t least,
 }
 
 void Problem::constrain_derivative(std::string name, TubeVariable x, const VectorExpr& f) {
+  if (impl_->phases != nullptr) {
+    require(f.size() == x.dim, "Problem: der of a tube of dimension {} and {} components", x.dim, f.size());
+    for (std::size_t c = 0; c < x.dim; ++c) constrain_derivative(name, x, c, f[c]);
+    return;
+  }
   impl_->need_line();
   impl_->require_all_time("a derivative");
   require(f.size() == x.dim, "Problem: der of a tube of dimension {} and {} components", x.dim, f.size());
@@ -72,9 +86,13 @@ void Problem::constrain_derivative(std::string name, TubeVariable x, const Vecto
 }
 
 void Problem::constrain_derivative(std::string name, TubeVariable x, std::size_t component, Expr f) {
+  require(component < x.dim, "Problem: component {} of {}", component + 1, x.dim);
+  if (impl_->phases != nullptr) {
+    const Input derived{Input::Kind::tube, x.id, static_cast<std::uint32_t>(component), 0};
+    return impl_->state_on_phases({std::move(name), impl_->node_of(f), false, derived});
+  }
   impl_->need_line();
   impl_->require_all_time("a derivative");
-  require(component < x.dim, "Problem: component {} of {}", component + 1, x.dim);
   impl_->state(make_derivative_contractor(std::move(name), x.id, x.dim, {component}, impl_->dag,
                                           {impl_->node_of(f)}, impl_->context()));
 }

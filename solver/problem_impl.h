@@ -12,6 +12,8 @@
 #include "solver/contractors/each_instant.h"
 #include "solver/contractors/inputs.h"
 #include "solver/expression/operators.h"
+#include "solver/phases/enclosure.h"
+#include "solver/phases/phase_tubes.h"
 #include "solver/problem.h"
 #include "solver/problem_run.h"
 #include "solver/search/point_set.h"
@@ -51,13 +53,26 @@ struct Problem::Impl {
   std::map<std::pair<VariableId, double>, VariableId> delayed;       // tubes, by the delay
   std::map<std::pair<VariableId, double>, SetVariable> refinements;  // by the finer grid's precision
   std::set<std::string> hidden_names;
-  std::vector<NodeId> relations;                  // those that hold whatever else does
-  std::map<VariableId, Interval> certain;         // domains whose ends are no doubles: what is inside of them
-  std::set<VariableId> whole;                     // the whole numbers and Booleans
-  std::set<VariableId> bound;                     // by quantifiers over reals
-  bool is_system = true;                          // nothing but relations and whole numbers was stated
-  std::shared_ptr<const ItemSet> window;          // the items at hand; null for all
-  std::shared_ptr<InstantAtHand> each_instant{};  // of at_each_instant()
+  struct Stated {
+    std::string name;
+    NodeId relation;
+    bool is_implied;
+  };
+  std::vector<Stated> relations;          // those that hold whatever else does
+  std::set<VariableId> parameters;        // numbers that are given
+  std::map<VariableId, NodeId> followed;  // by parameter: what its value is unless it is set
+  std::map<VariableId, std::optional<NodeId>> values_of_parameters;  // as constants
+  std::map<VariableId, Interval> certain;  // domains whose ends are no doubles: what is inside of them
+  std::set<VariableId> whole;              // the whole numbers and Booleans
+  std::set<VariableId> bound;              // by quantifiers over reals
+  bool is_system = true;                   // nothing but relations and whole numbers was stated
+  std::unique_ptr<PhaseTubes> phases;      // where the time line is made of phases
+  std::vector<PhaseStatement> statements;  // with phases: relations before they are expanded
+  std::optional<PhaseSpan> span;           // with phases: of the time at hand
+  mutable std::map<VariableId, TubeEnclosure> enclosures;  // of tubes that were asked for
+  bool is_expanded = false;                                // with phases: they were
+  std::shared_ptr<const ItemSet> window;                   // the items at hand; null for all
+  std::shared_ptr<InstantAtHand> each_instant{};           // of at_each_instant()
 
   [[nodiscard]] Inputs::Context context() const { return {line, sampled, motions, window}; }
 
@@ -103,6 +118,8 @@ struct Problem::Impl {
 
   // A contractor of the problem, or of the alternative that is being stated.
   void state(std::unique_ptr<Contractor> contractor, bool of_system = false) {
+    require(phases == nullptr || of_system, "Problem: {} is no relation, on a time line with phases",
+            contractor->name());
     is_system = is_system && of_system;
     if (alternative == nullptr) {
       graph.add_contractor(std::move(contractor));
@@ -110,6 +127,11 @@ struct Problem::Impl {
       alternative->push_back(std::move(contractor));
     }
   }
+
+  void state_relation(std::string stated, Expr relation, bool is_implied);
+  void state_on_phases(PhaseStatement statement);
+  TubeVariable add_phase_tube(const std::string& tube, std::size_t dim);
+  void expand_phases();
 
   // What an alternative says of a derivative, or of a tube at an instant, holds there alone.
   ContractorGraph alternative_of(const std::function<void()>& stated) {
@@ -136,16 +158,17 @@ struct Problem::Impl {
   }
   PointSet point_set_of(const std::vector<Expr>& variables);
 
+  // The value of an expression of parameters.
+  [[nodiscard]] Interval value_of_parameters(NodeId id) const;
+  // An expression with what is given in the place of the parameters.
+  [[nodiscard]] NodeId with_values_of_parameters(NodeId id);
   // The relations of a problem of reals as searches take them: those stated, and a false one where a domain
-  // is empty, which no relation need speak of.
-  [[nodiscard]] std::vector<NodeId> relations_of_search() {
-    std::vector<NodeId> all = relations;
-    bool is_possible = true;
-    for (VariableId v = 0; v < kinds.size(); ++v)
-      is_possible = is_possible && !graph.initial<Interval>(v).is_empty();
-    if (!is_possible) all.push_back(dag.constant(kFalse));
-    return all;
-  }
+  // is empty, which no relation need speak of; and those that are implied. What is given is a constant in
+  // them.
+  struct SearchRelations {
+    std::vector<NodeId> stated, implied;
+  };
+  [[nodiscard]] SearchRelations relations_of_search();
 
   [[nodiscard]] std::shared_ptr<const ItemSet> items_of(const Window& span) const {
     need_line();
@@ -209,9 +232,18 @@ struct Problem::Impl {
     }
   }
 
-  [[nodiscard]] ProblemView view() const { return {name, graph, kinds, line, readings, shapes, vectors}; }
+  [[nodiscard]] ProblemView view() const {
+    return {
+        name, graph, kinds, line, readings, shapes, vectors, [this](VariableId tube, const auto& value_of) {
+          const auto known = enclosures.try_emplace(tube, dag, *phases, tube).first;
+          return Domain(known->second.on(value_of));
+        }};
+  }
 
-  void need_line() const { require(line != nullptr, "Problem: set_time_line comes before the first tube"); }
+  void need_line() const {
+    require(phases == nullptr, "Problem: this needs a time line of known instants, and this one has phases");
+    require(line != nullptr, "Problem: set_time_line comes before the first tube");
+  }
 };
 
 }  // namespace hcsp

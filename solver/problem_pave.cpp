@@ -39,8 +39,9 @@ std::vector<Interval> hull_of(const PavingAnswer& answer, std::size_t dim) {
 }  // namespace
 
 bool Problem::is_region() const {
-  const bool all_reals = std::all_of(impl_->kinds.begin(), impl_->kinds.end(),
-                                     [](DomainKind kind) { return kind == DomainKind::real; });
+  const bool all_reals = std::all_of(impl_->kinds.begin(), impl_->kinds.end(), [](DomainKind kind) {
+    return kind == DomainKind::real || kind == DomainKind::polynomial;
+  });
   return all_reals && impl_->is_system;
 }
 
@@ -67,13 +68,14 @@ PointSet Problem::Impl::point_set_of(const std::vector<Expr>& variables) {
   for (const Expr& variable : variables) {
     require(&variable.dag() == &dag, "Problem: the variable belongs to another problem");
     const DagNode& node = dag[variable.node()];
-    const bool is_unknown = node.op == Op::input && !bound.contains(node.input.variable);
+    const bool is_unknown = node.op == Op::input && !bound.contains(node.input.variable) &&
+                            !parameters.contains(node.input.variable);
     require(is_unknown, "Problem: pave() takes unknowns, not expressions");
     require(known.insert(node.input).second, "Problem: {} is paved twice",
             graph.variable(node.input.variable).name());
     unknowns.push_back(unknown(node.input));
   }
-  std::vector<NodeId> all = relations_of_search();
+  std::vector<NodeId> all = relations_of_search().stated;
   if (all.empty()) all.push_back(dag.constant(kTrue));
   NodeId relation = all.front();
   for (std::size_t i = 1; i < all.size(); ++i) relation = dag.apply(Op::logical_and, {relation, all[i]}, 2);
@@ -91,6 +93,7 @@ Result Problem::pave(const std::vector<Expr>& variables, const SearchOptions& op
   require(options.precision > 0, "Problem: a precision of {}", options.precision);
   require(!variables.empty(), "Problem: pave() of no variables");
   const double started = options.clock();
+  define_phases();
   const PointSet set = impl_->point_set_of(variables);
   PavingAnswer answer = hcsp::pave(set, options);
   const std::vector<System::Unknown> coordinates(set.unknowns.begin(),
@@ -102,12 +105,17 @@ Result Problem::pave(const std::vector<Expr>& variables, const SearchOptions& op
     paving.names.push_back(impl_->graph.variable(coordinate.input.variable).name());
   const std::vector<Interval> hull = hull_of(answer, set.dim);
   const bool is_feasible = !hull.front().is_empty();
-  result.variables = declared_domains(impl_->view(), [&](VariableId id) -> Domain {
+  const ProblemView view = impl_->view();
+  const auto value_of = [&](VariableId id) {
     if (!is_feasible) return Interval::empty();
     for (std::size_t v = 0; v < set.dim; ++v) {
       if (coordinates[v].input.variable == id) return hull[v];
     }
     return impl_->graph.initial<Interval>(id);
+  };
+  result.variables = declared_domains(view, [&](VariableId id) -> Domain {
+    const bool is_tube = view.kinds[id] == DomainKind::polynomial;
+    return is_tube ? view.polynomials(id, value_of) : Domain(value_of(id));
   });
   result.status = !answer.unexplored.empty() ? Status::limit
                   : is_feasible              ? Status::solved

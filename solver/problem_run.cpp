@@ -18,6 +18,8 @@ Domain domain_of(const ProblemView& problem, const Propagation& run, VariableId 
       return run.domain<Tube>(id);
     case DomainKind::set:
       return run.domain<SetInterval>(id);
+    case DomainKind::polynomial:
+      return problem.polynomials(id, [&](VariableId real) { return run.domain<Interval>(real); });
   }
   return Interval::empty();
 }

@@ -2,6 +2,7 @@
 // Running a problem's graph and telling what came of it, as a Result. Internal to the solver.
 #pragma once
 
+#include <functional>
 #include <map>
 #include <memory>
 #include <string>
@@ -12,7 +13,7 @@
 namespace hcsp {
 
 /// Which of the library's domains a variable has.
-enum class DomainKind : std::uint8_t { real, tube, set };
+enum class DomainKind : std::uint8_t { real, tube, set, polynomial };
 
 /// A vector unknown: so many real variables, one after another. A contractor of some components is woken by
 /// those alone.
@@ -29,6 +30,7 @@ struct ProblemView {
   const std::map<VariableId, std::vector<Reading>>& readings;
   const std::map<VariableId, Shape>& shapes;
   const std::map<VariableId, VectorGroup>& vectors;  // by their first components
+  std::function<Domain(VariableId, const std::function<Interval(VariableId)>&)> polynomials;  // with phases
 };
 
 /// The unknowns that are not hidden, in the order of declaration, each with the domain that is given for it;

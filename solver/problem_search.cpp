@@ -2,6 +2,8 @@
 // A Problem as a system of relations between reals, and its solutions.
 #include <algorithm>
 
+#include "solver/expression/substitution.h"
+#include "solver/online/compiled_problem.h"
 #include "solver/problem_impl.h"
 #include "solver/search/branch_and_bound.h"
 #include "solver/search/branch_and_prune.h"
@@ -15,15 +17,21 @@ std::vector<Input> inputs_of(const Dag& dag, const std::vector<NodeId>& relation
   return relations.empty() ? std::vector<Input>{} : Program(dag, relations).inputs();
 }
 
+std::vector<NodeId> joined(std::vector<NodeId> all, const std::vector<NodeId>& more) {
+  all.insert(all.end(), more.begin(), more.end());
+  return all;
+}
+
 // The unknowns of a search, and what its boxes tell of all of the problem's.
 struct SearchView {
   const ProblemView problem;
+  const std::set<VariableId>& given;
   std::vector<System::Unknown> unknowns;
   std::map<VariableId, std::size_t> place_of;
 
   SearchView(const ProblemView& view, const std::vector<Input>& inputs, const std::set<VariableId>& whole,
-             const std::map<VariableId, Interval>& certain)
-      : problem(view) {
+             const std::set<VariableId>& given_numbers, const std::map<VariableId, Interval>& certain)
+      : problem(view), given(given_numbers) {
     for (const Input& input : inputs) {
       place_of.emplace(input.variable, unknowns.size());
       unknowns.push_back(
@@ -34,16 +42,41 @@ struct SearchView {
   }
 
   [[nodiscard]] std::vector<ResultVariable> variables_in(const std::vector<Interval>& box) const {
-    return declared_domains(problem, [&](VariableId id) -> Domain {
+    const auto value_of = [&](VariableId id) {
       const auto place = place_of.find(id);
       return place == place_of.end() ? problem.graph.initial<Interval>(id) : box[place->second];
+    };
+    return declared_domains(problem, [&](VariableId id) -> Domain {
+      const bool is_tube = problem.kinds[id] == DomainKind::polynomial;
+      return is_tube ? problem.polynomials(id, value_of) : Domain(value_of(id));
     });
+  }
+
+  // A box that holds a solution, if compiling finds a good one: on phases it eliminates what is defined, and
+  // so proves limits that are reached, which search by itself cannot.
+  [[nodiscard]] std::optional<std::vector<Interval>> compiled_solution(Problem& stated, Expr objective,
+                                                                       const SearchOptions& options) const {
+    try {
+      OnlineOptions online;
+      online.precision = options.precision;
+      CompiledProblem compiled = compile(stated, objective, online);
+      compiled.solve();
+      if (!compiled.has_solution()) return {};
+      std::vector<Interval> box;
+      for (const System::Unknown& unknown : unknowns)
+        box.push_back(compiled.value(RealVariable{unknown.input.variable}));
+      return box;
+    } catch (const std::invalid_argument&) {
+      return {};  // too many cases
+    }
   }
 
   // Unknowns that are in no relation have many values.
   [[nodiscard]] bool is_of_all() const {
     for (VariableId v = 0; v < problem.kinds.size(); ++v) {
-      if (!place_of.contains(v) && !problem.graph.initial<Interval>(v).is_point()) return false;
+      const bool has_values =
+          problem.kinds[v] == DomainKind::real && !place_of.contains(v) && !given.contains(v);
+      if (has_values && !problem.graph.initial<Interval>(v).is_point()) return false;
     }
     return true;
   }
@@ -86,15 +119,42 @@ void tell_time(Result& result, double started, const SearchOptions& options) {
 
 }  // namespace
 
+// A number of several values is one of them wherever it stands, and another one than any else's.
+NodeId Problem::Impl::with_values_of_parameters(NodeId id) {
+  std::map<NodeId, NodeId> places;
+  for (const VariableId parameter : parameters) {
+    const Interval& value = graph.initial<Interval>(parameter);
+    std::optional<NodeId>& own = values_of_parameters[parameter];
+    const auto follows = followed.find(parameter);
+    if (!own && follows != followed.end()) own = Substitution(dag, places).of(follows->second);
+    if (!own) own = value.is_point() ? dag.constant(value) : dag.own_constant(value);
+    places.emplace(input(Input::Kind::real, parameter, 0).node(), *own);
+  }
+  return Substitution(dag, std::move(places)).of(id);
+}
+
+Problem::Impl::SearchRelations Problem::Impl::relations_of_search() {
+  SearchRelations all;
+  for (const Stated& stated : relations)
+    (stated.is_implied ? all.implied : all.stated).push_back(with_values_of_parameters(stated.relation));
+  bool is_possible = true;
+  for (VariableId v = 0; v < kinds.size(); ++v)
+    is_possible = is_possible && !graph.initial<Interval>(v).is_empty();
+  if (!is_possible) all.stated.push_back(dag.constant(kFalse));
+  return all;
+}
+
 bool Problem::is_system() const { return is_region() && impl_->bound.empty(); }
 
 Result Problem::solve_all(const SearchOptions& options) {
   require(is_system(), "Problem: solve_all() is for relations between reals");
   require(options.precision > 0, "Problem: a precision of {}", options.precision);
   const double started = options.clock();
-  const std::vector<NodeId> relations = impl_->relations_of_search();
-  const SearchView view(impl_->view(), inputs_of(impl_->dag, relations), impl_->whole, impl_->certain);
-  const System system(impl_->dag, relations, view.unknowns);
+  define_phases();
+  const auto [relations, implied] = impl_->relations_of_search();
+  const SearchView view(impl_->view(), inputs_of(impl_->dag, joined(relations, implied)), impl_->whole,
+                        impl_->parameters, impl_->certain);
+  const System system(impl_->dag, relations, view.unknowns, implied);
   const SearchAnswer answer = branch_and_prune(system, options);
   Result result = result_of(view, answer.found, answer.unexplored, answer.cells);
   tell_time(result, started, options);
@@ -104,16 +164,21 @@ Result Problem::solve_all(const SearchOptions& options) {
 Result Problem::minimize(Expr objective, const SearchOptions& options) {
   require(is_system(), "Problem: minimize() is for relations between reals");
   require(options.precision > 0, "Problem: a precision of {}", options.precision);
-  const NodeId node = impl_->node_of(objective);
-  require(!impl_->holds_or_not(node), "Problem: the objective is a relation");
+  require(!impl_->holds_or_not(impl_->node_of(objective)), "Problem: the objective is a relation");
   const double started = options.clock();
-  const std::vector<NodeId> relations = impl_->relations_of_search();
-  std::vector<NodeId> all = relations;
+  define_phases();
+  if (impl_->phases != nullptr) objective = impl_->phases->expand(objective);
+  const NodeId node = impl_->with_values_of_parameters(objective.node());
+  const auto [relations, implied] = impl_->relations_of_search();
+  std::vector<NodeId> all = joined(relations, implied);
   all.push_back(node);
-  const SearchView view(impl_->view(), inputs_of(impl_->dag, all), impl_->whole, impl_->certain);
+  const SearchView view(impl_->view(), inputs_of(impl_->dag, all), impl_->whole, impl_->parameters,
+                        impl_->certain);
   const Input value{Input::Kind::real, static_cast<VariableId>(impl_->kinds.size()), 0, 0};
-  const Minimisation problem(impl_->dag, node, relations, view.unknowns, value);
-  const MinimumAnswer answer = branch_and_bound(problem, options);
+  const Minimisation problem(impl_->dag, node, relations, view.unknowns, value, implied);
+  const auto known =
+      impl_->phases == nullptr ? std::nullopt : view.compiled_solution(*this, objective, options);
+  const MinimumAnswer answer = branch_and_bound(problem, options, known);
   std::vector<FoundBox> found;
   if (answer.best) found.push_back({*answer.best, Certificate::exists, Reason::proven});
   for (const std::vector<Interval>& box : answer.boxes)

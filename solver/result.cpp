@@ -48,6 +48,14 @@ bool ResultVariable::is_empty() const {
   return std::visit([](const auto& d) { return d.is_empty(); }, domain);
 }
 
+const std::vector<ResultVariable>& told_variables(const Result& result) {
+  if (!result.search) return result.variables;
+  for (const Solution& solution : result.search->solutions) {
+    if (solution.certificate != Certificate::none) return solution.variables;
+  }
+  return result.variables;
+}
+
 const Domain& Result::operator[](std::string_view name) const {
   const auto found = std::find_if(variables.begin(), variables.end(),
                                   [&](const ResultVariable& v) { return v.name == name; });

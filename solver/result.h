@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "domains/box.h"
+#include "domains/polynomial_tube.h"
 #include "domains/set_interval.h"
 #include "domains/tube.h"
 
@@ -34,7 +35,7 @@ std::string_view to_string(Certificate certificate);
 /// Empty for Reason::proven.
 std::string_view to_string(Reason reason);
 
-using Domain = std::variant<Interval, Box, Tube, SetInterval>;
+using Domain = std::variant<Interval, Box, Tube, SetInterval, PolynomialTube>;
 
 /// How a result writes an unknown down, beyond its domain.
 struct Shape {
@@ -43,6 +44,7 @@ struct Shape {
   std::size_t columns = 0;   ///< of a matrix; 0 of anything else
   std::string array;         ///< the array that it is an element of, if any
   std::vector<int> indices;  ///< and where in it
+  bool is_drawn = false;     ///< a tube on phases, against known instants for a picture
 };
 
 struct ResultVariable {
@@ -153,5 +155,8 @@ struct Result {
   /// Throws std::out_of_range when no variable has that name.
   [[nodiscard]] const Domain& operator[](std::string_view name) const;
 };
+
+/// What pictures and motion polynomials tell: of a search, the first solution that is proven to exist.
+const std::vector<ResultVariable>& told_variables(const Result& result);
 
 }  // namespace hcsp

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "domains/rounding.h"
 #include "solver/search/boxes.h"
 #include "solver/search/checkpoint.h"
 #include "solver/search/feasible_point.h"
@@ -110,7 +111,8 @@ class Bounder {
     if (!hc4_.contract(box) || !choices_.contract(box)) return false;
     constexpr int kMostRounds = 3;
     for (int round = 0; round < kMostRounds; ++round) {
-      if (!hull_.contract_below(box, problem_.value())) return false;
+      if (!hull_.contract_below(box, problem_.value()) || !limit(box)) return false;
+      if (!shared_.is_settling && is_done(box)) return true;
       if (round == 0) look_for_point(box);
       if (!limit(box)) return false;
       if (!shared_.is_settling && is_done(box)) return true;
@@ -256,7 +258,8 @@ class Minimiser {
         options_(options),
         tree_(options_, [&] { return Bounder(problem_, options_, shared_); }) {}
 
-  MinimumAnswer run() {
+  MinimumAnswer run(const std::optional<std::vector<Interval>>& known) {
+    if (known) offer(*known);
     const std::uint64_t mark = mark_of(problem_.with_value, "minimize", options_);
     std::vector<Bounder::Node> roots;
     if (options_.resume.empty()) {
@@ -272,6 +275,11 @@ class Minimiser {
   }
 
  private:
+  void offer(const std::vector<Interval>& box) {
+    const RoundUpward guard;
+    shared_.incumbent.offer(ObjectiveRun(problem_).on(box).hi(), box);
+  }
+
   // Boxes whose lower bounds are close enough may be wide: a part of the work so far goes into cutting them.
   void settle() {
     std::vector<Bounder::Node> wide;
@@ -370,10 +378,11 @@ bool is_close(const Interval& minimum, const SearchOptions& options) {
   return gap <= absolute || gap <= options.precision * size;
 }
 
-MinimumAnswer branch_and_bound(const Minimisation& problem, const SearchOptions& options) {
+MinimumAnswer branch_and_bound(const Minimisation& problem, const SearchOptions& options,
+                               const std::optional<std::vector<Interval>>& known) {
   SearchOptions ordered = options;
   if (!ordered.order) ordered.order = SearchOrder::best_first;
-  return Minimiser(problem, ordered).run();
+  return Minimiser(problem, ordered).run(known);
 }
 
 }  // namespace hcsp

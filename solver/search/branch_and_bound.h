@@ -26,7 +26,9 @@ struct MinimumAnswer {
 bool is_close(const Interval& minimum, const SearchOptions& options);
 
 /// Ends when the bracket is close, when what is left cannot be cut any more, or at a limit; then the answer
-/// is still guaranteed. Answers of different numbers of threads overlap.
-MinimumAnswer branch_and_bound(const Minimisation& problem, const SearchOptions& options);
+/// is still guaranteed. Answers of different numbers of threads overlap. `known` holds a solution that is
+/// proven already.
+MinimumAnswer branch_and_bound(const Minimisation& problem, const SearchOptions& options,
+                               const std::optional<std::vector<Interval>>& known = {});
 
 }  // namespace hcsp

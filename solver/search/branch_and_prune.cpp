@@ -161,12 +161,12 @@ class Explorer {
     return true;
   }
 
-  // All relations but equations hold for every point of a box.
+  // All relations but equations, and what is implied, hold for every point of a box.
   bool all_hold(const std::vector<Interval>& box) {
     run_.evaluate(box, false);
     for (std::size_t i = 0; i < system_.relations.size(); ++i) {
       const System::Relation& relation = system_.relations[i];
-      if (relation.is_equation()) continue;
+      if (relation.is_equation() || relation.is_implied) continue;
       const double most = run_.value(i).hi();
       const bool holds = relation.strict ? most < 0.0 : most <= 0.0;
       if (!holds || !run_.is_continuous(i)) return false;

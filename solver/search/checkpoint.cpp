@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "solver/search/checkpoint.h"
 
+#include <fmt/format.h>
+
 #include <cstring>
 
 #include "domains/check.h"
@@ -47,7 +49,9 @@ std::uint64_t mark_of(const System& system, std::string_view goal, const SearchO
   for (std::size_t v = 0; v < system.size(); ++v)
     unknowns.push_back(
         {system.inputs[v], system.domains[v], system.is_whole[v] != 0, false, system.certain[v]});
-  return mark_of(system.dag, system.stated, unknowns, goal, options);
+  std::string of(goal);
+  if (system.implied > 0) of += fmt::format(", {} implied", system.implied);
+  return mark_of(system.dag, system.stated, unknowns, of, options);
 }
 
 std::uint64_t mark_of(const Dag& dag, const std::vector<NodeId>& stated,

@@ -35,6 +35,7 @@ bool Choices::shrink_to_whole(Interval& domain) {
 
 bool Choices::all_hold(const std::vector<Interval>& box) {
   return std::all_of(all_.begin(), all_.end(), [&](One& one) {
+    if (one.choice->is_implied) return true;
     for (std::uint32_t i = 0; i < one.choice->unknowns.size(); ++i)
       one.evaluation.set(i, box[one.choice->unknowns[i]]);
     one.evaluation.forward();

@@ -17,7 +17,7 @@ class Choices {
   /// Contracts a box by each relation once and to whole numbers; false when it has no solution. PRECONDITION:
   /// the thread rounds upward.
   bool contract(std::vector<Interval>& box);
-  /// Whether all hold for every point of a box.
+  /// Whether all but those that are implied hold for every point of a box.
   bool all_hold(const std::vector<Interval>& box);
 
  private:

@@ -66,6 +66,10 @@ bool FeasiblePoint::evaluate(const std::vector<double>& point) {
   std::size_t number = 0;
   for (std::uint32_t i = 0; i < system_.relations.size(); ++i) {
     const System::Relation& relation = system_.relations[i];
+    if (relation.is_implied) {
+      number += relation.is_equation() ? 1 : 0;
+      continue;
+    }
     const Interval& value = run_.value(i);
     if (value.is_empty() || !value.is_bounded()) return false;
     if (relation.is_equation()) {
@@ -178,6 +182,10 @@ bool FeasiblePoint::holds() {
   std::size_t equation = 0;
   for (std::size_t i = 0; i < system_.relations.size(); ++i) {
     const System::Relation& relation = system_.relations[i];
+    if (relation.is_implied) {
+      equation += relation.is_equation() ? 1 : 0;
+      continue;
+    }
     if (relation.is_equation()) {
       const auto number = static_cast<std::uint32_t>(equation++);
       const bool is_proven =

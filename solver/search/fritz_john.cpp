@@ -13,7 +13,9 @@ FritzJohn::FritzJohn(const Minimisation& problem)
     : problem_(problem), run_(*problem.with_value.tape), choices_(problem.constraints) {
   slopes_.assign(problem.with_value.relations.size(),
                  std::vector<Interval>(problem.with_value.size(), Interval::raw(0.0, 0.0)));
-  const auto is_equation = [](const System::Relation& relation) { return relation.is_equation(); };
+  const auto is_equation = [](const System::Relation& relation) {
+    return relation.is_equation() && !relation.is_implied;
+  };
   equations_ = static_cast<std::size_t>(
       std::count_if(problem.constraints.relations.begin(), problem.constraints.relations.end(), is_equation));
 }
@@ -52,6 +54,7 @@ bool FritzJohn::expand_around(const std::vector<Interval>& box) {
   around_.back() = Interval::raw(0.0, 0.0);
   run_.evaluate(around_, true);
   for (std::size_t i = 0; i < slopes_.size(); ++i) {
+    if (problem_.with_value.relations[i].is_implied) continue;
     if (!run_.is_continuous(i)) return false;
     run_.gradient(i, slopes_[i]);
   }
@@ -62,6 +65,7 @@ bool FritzJohn::expand_around(const std::vector<Interval>& box) {
 void FritzJohn::collect_multipliers(std::uint32_t signs) {
   multipliers_.clear();
   for (std::uint32_t i = 0; i < slopes_.size(); ++i) {
+    if (problem_.with_value.relations[i].is_implied) continue;
     const bool is_equation = i > 0 && problem_.with_value.relations[i].is_equation();
     if (i > 0 && !is_equation && run_.value(i).hi() < 0.0) continue;
     double most = 0.0;

@@ -3,7 +3,8 @@
 // objective, the equations and the inequalities that can be active add up their slopes to zero, but for what
 // the bounds of domains hold back. Over a box the slopes are intervals; that no multipliers do it for any
 // slopes in them is proven by a linear program. Where functions have kinks, the intervals hold their
-// generalised slopes (Clarke 1976).
+// generalised slopes (Clarke 1976). What is implied has none: a best solution is one of the constraints
+// alone.
 #pragma once
 
 #include <vector>

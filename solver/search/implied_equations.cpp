@@ -27,6 +27,10 @@ std::vector<LinearRow> linear_rows(const System& system) {
   std::uint32_t number = 0;
   for (std::uint32_t i = 0; i < system.relations.size(); ++i) {
     if (!system.relations[i].is_equation()) continue;
+    if (system.relations[i].is_implied) {
+      ++number;
+      continue;
+    }
     LinearRow row{number++, std::vector<Interval>(n + 1, kZero)};
     run.evaluate(everywhere, true);
     run.gradient(i, row.entries);
@@ -60,8 +64,9 @@ std::vector<std::uint8_t> implied_equations(const System& system) {
   std::vector<std::uint8_t> implied;
   std::set<std::uint32_t> stated;
   for (std::uint32_t i = 0; i < system.relations.size(); ++i) {
-    if (system.relations[i].is_equation())
-      implied.push_back(stated.insert(system.tape->root(i)).second ? 0 : 1);
+    if (!system.relations[i].is_equation()) continue;
+    const bool is_implied = system.relations[i].is_implied || !stated.insert(system.tape->root(i)).second;
+    implied.push_back(is_implied ? 1 : 0);
   }
   std::vector<LinearRow> rows = linear_rows(system);
   for (std::size_t k = 0; k < rows.size(); ++k) {

@@ -72,9 +72,10 @@ std::map<Input, NodeId> derivatives_of(Dag& dag, NodeId root) {
 }  // namespace
 
 Minimisation::Minimisation(Dag& dag, NodeId node, const std::vector<NodeId>& relations,
-                           std::vector<System::Unknown> unknowns, const Input& value)
-    : constraints(dag, relations, unknowns),
-      with_value(dag, with_objective(dag, node, relations, value), with_one_more(unknowns, value)),
+                           std::vector<System::Unknown> unknowns, const Input& value,
+                           const std::vector<NodeId>& implied)
+    : constraints(dag, relations, unknowns, implied),
+      with_value(dag, with_objective(dag, node, relations, value), with_one_more(unknowns, value), implied),
       has_slopes(fits_tape(dag, node)),
       objective(dag, {node}) {
   std::map<Input, std::uint32_t> place_of;

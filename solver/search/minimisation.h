@@ -12,7 +12,8 @@ namespace hcsp {
 struct Minimisation {
   /// `value` is an input that stands for the objective's value, and occurs nowhere else.
   Minimisation(Dag& dag, NodeId objective, const std::vector<NodeId>& relations,
-               std::vector<System::Unknown> unknowns, const Input& value);
+               std::vector<System::Unknown> unknowns, const Input& value,
+               const std::vector<NodeId>& implied = {});
 
   System constraints;
   /// The constraints and one unknown more, the last, that equals the objective.

@@ -65,6 +65,7 @@ bool Stationary::is_inside() {
   const auto& relations = problem_.with_value.relations;
   run_.evaluate(around_, true);
   for (std::size_t i = 0; i < relations.size(); ++i) {
+    if (relations[i].is_implied) continue;
     if (!run_.is_continuous(i)) return false;
     if (i > 0 && (relations[i].is_equation() || !(run_.value(i).hi() < 0.0))) return false;
   }

@@ -17,7 +17,8 @@ struct System {
   /// "root i of the tape lies in `wanted`": {0} for an equation, a ray for an inequality.
   struct Relation {
     Interval wanted;
-    bool strict;  ///< the finite bound itself is not allowed
+    bool strict;              ///< the finite bound itself is not allowed
+    bool is_implied = false;  ///< no proof has to show it
     [[nodiscard]] bool is_equation() const { return wanted.is_point(); }
   };
   /// Any other relation: one with connectives, choices or !=.
@@ -25,6 +26,7 @@ struct System {
     NodeId relation;
     Program program;
     std::vector<std::uint32_t> unknowns;  ///< by input of the program
+    bool is_implied = false;
   };
 
   struct Unknown {
@@ -38,14 +40,17 @@ struct System {
   };
 
   /// Sorts the conjuncts of relations between the unknowns; adds nodes to the graph, which outlives the
-  /// system.
-  System(Dag& dag, const std::vector<NodeId>& relations, const std::vector<Unknown>& unknowns);
+  /// system. What is implied contracts like any other relation, but is never what a proof shows, nor what it
+  /// counts as an equation.
+  System(Dag& dag, const std::vector<NodeId>& relations, const std::vector<Unknown>& unknowns,
+         const std::vector<NodeId>& implied = {});
 
   /// Number of unknowns.
   [[nodiscard]] std::size_t size() const { return domains.size(); }
 
   Dag& dag;
-  std::vector<NodeId> stated;          ///< the relations as they were given
+  std::vector<NodeId> stated;          ///< the relations as they were given, those that are implied last
+  std::size_t implied = 0;             ///< how many they are
   std::vector<Input> inputs;           ///< by unknown
   std::vector<Interval> domains;       ///< by unknown
   std::vector<Interval> certain;       ///< by unknown: where there may be proofs that it has a value
