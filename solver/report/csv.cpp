@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "solver/report/csv.h"
 
+#include "solver/report/segments.h"
 #include "solver/report/text.h"
 
 namespace hcsp {
@@ -125,6 +126,7 @@ std::string paving_csv(const Paving& paving) {
 }  // namespace
 
 std::string to_csv(const Result& result) {
+  if (report::has_segments(result)) return report::segments_csv(result);
   if (result.search) return search_csv(result);
   if (result.paving) return paving_csv(*result.paving);
   const TimeLine* line = nullptr;  // of the first tube: all tubes of a model stand on one line

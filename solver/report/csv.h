@@ -5,6 +5,7 @@
 // One row a gate (t_lo = t_hi, the instant) and one a slice (the bounds over the open interval t_lo to t_hi),
 // in the order of time. Every tube, vector and real has a pair of columns a component: of a tube its bounds
 // then, of a constant the same bounds in every row. Without a tube there is one row and no column of time.
+// With tubes on phases the table is that of their motion polynomials, see segments.h.
 // Infinite bounds are oo and -oo; the cells of an empty domain are blank. Sets have no column: the JSON file
 // holds them.
 #pragma once

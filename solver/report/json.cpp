@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <span>
 
+#include "solver/report/segments.h"
 #include "solver/report/text.h"
 
 namespace hcsp {
@@ -89,6 +90,32 @@ void put_domain(TextBuffer& out, NumberTexts& texts, const Tube& x) {
   put_items(out, texts, x, 0);
   put(out, ",\n      \"slices\": ");
   put_items(out, texts, x, 1);
+}
+
+// The middles of the instants in "time", their bounds in "instants".
+void put_domain(TextBuffer& out, NumberTexts& texts, const PolynomialTube& x) {
+  const auto put_bounds_of = [&](std::size_t rows, const auto& value) {
+    for (const bool is_lower : {true, false}) {
+      put(out, is_lower ? R"({"lo": )" : R"(, "hi": )");
+      put_list(out, rows, [&](std::size_t row) { value(row, is_lower); });
+    }
+    put(out, '}');
+  };
+  const auto number = [&](const Interval& value, bool is_lower) {
+    put_number(out, texts, is_lower ? value.lo() : value.hi());
+  };
+  fmt::format_to(fmt::appender(out), R"("kind": "tube", "dim": {}, "time": )", x.dim());
+  put_list(out, x.phases() + 1, [&](std::size_t k) { put_number(out, texts, x.instant(k).mid()); });
+  put(out, ",\n      \"instants\": ");
+  put_bounds_of(x.phases() + 1, [&](std::size_t k, bool is_lower) { number(x.instant(k), is_lower); });
+  put(out, ",\n      \"gates\": ");
+  put_bounds_of(x.phases() + 1, [&](std::size_t k, bool is_lower) {
+    put_list(out, x.dim(), [&](std::size_t c) { number(x.gate(c, k), is_lower); });
+  });
+  put(out, ",\n      \"slices\": ");
+  put_bounds_of(x.phases(), [&](std::size_t i, bool is_lower) {
+    put_list(out, x.dim(), [&](std::size_t c) { number(x.slice(c, i), is_lower); });
+  });
 }
 
 void put_boxes(TextBuffer& out, NumberTexts& texts, const SetInterval& x, CellState state) {
@@ -316,6 +343,11 @@ std::string to_json(const Result& result) {
   if (result.search) put_search(out, texts, *result.search);
   if (result.objective) put_objective(out, *result.objective);
   if (result.paving) put_paving(out, texts, *result.paving);
+  if (report::has_segments(result)) {
+    put(out, "  \"segments\": ");
+    report::put_segments(out, result);
+    put(out, ",\n");
+  }
   if (result.explanation) put_explanation(out, texts, *result.explanation);
   put_statistics(out, result);
   put(out, "}\n");

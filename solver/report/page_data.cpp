@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "solver/report/binary.h"
+#include "solver/report/drawn.h"
 #include "solver/report/paving_map.h"
 #include "solver/report/text.h"
 
@@ -66,9 +67,10 @@ bool needs_double(const Tube& x) {
 // A variable that the page shows, and how all its domains are written.
 struct Shown {
   std::string name;
-  const Domain* last;    // its domain in the last frame where it is not empty
-  std::size_t line = 0;  // of a tube
-  bool is_wide = false;  // a tube in doubles
+  const Domain* last;     // its domain in the last frame where it is not empty
+  std::size_t line = 0;   // of a tube
+  bool is_wide = false;   // a tube in doubles
+  bool is_drawn = false;  // a tube on phases
 };
 
 void put_domain(TextBuffer& out, const Shown&, const Interval& x) {
@@ -113,6 +115,9 @@ void put_boxes(TextBuffer& out, const SetInterval& x, CellState state) {
   put(out, '}');
 }
 
+// Drawn as a tube of known instants.
+void put_domain(TextBuffer&, const Shown&, const PolynomialTube&) {}
+
 void put_domain(TextBuffer& out, const Shown&, const SetInterval& x) {
   put(out, R"({"volume":)");
   put_pair(out, x.lower_volume(), x.upper_volume());
@@ -135,8 +140,8 @@ void put_variable(TextBuffer& out, const Shown& shown) {
   put(out, R"({"name":)");
   put_json_string(out, shown.name);
   if (const auto* tube = std::get_if<Tube>(shown.last)) {
-    fmt::format_to(fmt::appender(out), R"(,"kind":"tube","dim":{},"line":{},"wide":{})", tube->dim(),
-                   shown.line, shown.is_wide);
+    fmt::format_to(fmt::appender(out), R"(,"kind":"tube","dim":{},"line":{},"wide":{},"drawn":{})",
+                   tube->dim(), shown.line, shown.is_wide, shown.is_drawn);
   } else if (const auto* set = std::get_if<SetInterval>(shown.last)) {
     fmt::format_to(fmt::appender(out), R"(,"kind":"set","dim":{},"precision":{})", set->dim(),
                    set->precision());
@@ -321,6 +326,7 @@ std::vector<const ResultVariable*> shown_variables(const std::vector<ResultVaria
 }
 
 std::string page_data(const Result& result, const Presentation& presentation) {
+  if (const auto shown_result = drawn(result)) return page_data(*shown_result, presentation);
   const std::vector<const ResultVariable*> variables = shown_variables(result.variables, presentation);
   const std::vector<Frame> frames = frames_of(result, variables);
   std::vector<Shown> shown;
@@ -337,6 +343,7 @@ std::string page_data(const Result& result, const Presentation& presentation) {
       how.line = static_cast<std::size_t>(known - lines.begin());
       if (known == lines.end()) lines.push_back(&tube->line());
       how.is_wide = needs_double(*tube);
+      how.is_drawn = variable->shape.is_drawn;
     }
     shown.push_back(how);
   }

@@ -11,7 +11,8 @@ namespace hcsp::report {
 
 /// { hcsp, model, status, seconds, passes, threads, contractors: [[name, calls, seconds], ...], explanation,
 ///   lines: [f64, ...]              the time lines, each the base64 of its instants
-///   variables: [{ name, kind, and for a vector dim; for a tube dim, line, wide; for a set dim, precision },
+///   variables: [{ name, kind, and for a vector dim; for a tube dim, line, wide, drawn (from phases); for a
+///   set dim, precision },
 ///   ...] frames: [{ pass, domains: [...] }, ...]    by variable: null empty, 0 as in the frame before, or
 ///     a real or a vector  [[lo, hi], ...]
 ///     a tube  the base64 of float, or of double if wide: by component, the lower and then the upper bounds

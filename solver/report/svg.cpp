@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "solver/report/drawn.h"
 #include "solver/report/page_data.h"
 #include "solver/report/paving_map.h"
 #include "solver/report/svg_parts.h"
@@ -64,6 +65,7 @@ std::string caption(const Result& result) {
 }  // namespace
 
 std::string to_svg(const Result& result, const Presentation& presentation) {
+  if (const auto drawn = report::drawn(result)) return to_svg(*drawn, presentation);
   const std::vector<const ResultVariable*> shown = report::shown_variables(result.variables, presentation);
   const std::vector<report::TimePlot> plots = report::time_plots(shown);
   const bool with_map = result.paving || report::has_map(shown);

@@ -65,6 +65,28 @@ const ResultVariable* leading_tube(const std::vector<const ResultVariable*>& sho
   return leading;
 }
 
+// The others that lead from where it starts to where it ends, on phases: ways to compare.
+std::vector<const ResultVariable*> other_paths(const std::vector<const ResultVariable*>& shown,
+                                               const ResultVariable* leading) {
+  std::vector<const ResultVariable*> others;
+  if (leading == nullptr || !leading->shape.is_drawn) return others;
+  const Tube& way = std::get<Tube>(leading->domain);
+  for (const ResultVariable* variable : shown) {
+    const auto* tube = std::get_if<Tube>(&variable->domain);
+    if (variable == leading || tube == nullptr || !variable->shape.is_drawn || tube->dim() < 2) continue;
+    const bool is_same_way = [&] {
+      for (const std::size_t end : {std::size_t{0}, way.items() - 1}) {
+        for (const std::size_t c : {0U, 1U}) {
+          if (meet(way.at(c, end), tube->at(c, end)).is_empty()) return false;
+        }
+      }
+      return true;
+    }();
+    if (is_same_way) others.push_back(variable);
+  }
+  return others;
+}
+
 const std::vector<std::vector<double>>* truth_of(const ResultVariable* tube,
                                                  const Presentation& presentation) {
   if (tube == nullptr || !presentation.truth) return nullptr;
@@ -74,7 +96,8 @@ const std::vector<std::vector<double>>* truth_of(const ResultVariable* tube,
 
 // A plot of equal scale on both axes around everything that is bounded.
 Plot frame_of(double left, double top, double edge, const std::vector<Layer>& layers,
-              const ResultVariable* leading, const std::vector<std::vector<double>>* truth) {
+              const std::vector<const ResultVariable*>& paths,
+              const std::vector<std::vector<double>>* truth) {
   Extent xs, ys;
   for (const Layer& layer : layers) {
     if (layer.state == CellState::unknown && !is_bounded(*layer.set)) continue;
@@ -85,8 +108,8 @@ Plot frame_of(double left, double top, double edge, const std::vector<Layer>& la
       }
     }
   }
-  if (leading != nullptr) {
-    const Tube& tube = std::get<Tube>(leading->domain);
+  for (const ResultVariable* path : paths) {
+    const Tube& tube = std::get<Tube>(path->domain);
     for (std::size_t item = 0; item < tube.items(); ++item) {
       xs.add(tube.lo(0)[item]);
       xs.add(tube.hi(0)[item]);
@@ -138,15 +161,20 @@ void put_layer(TextBuffer& out, const Plot& plot, const Layer& layer) {
 }
 
 // The outlines of all slices under their union: what remains is the outline of the union.
-void put_tube(TextBuffer& out, const Plot& plot, const Tube& tube) {
-  put(out, R"(<defs><path id="slices" d=")");
+void put_tube(TextBuffer& out, const Plot& plot, const Tube& tube, std::size_t number,
+              std::string_view color) {
+  fmt::format_to(fmt::appender(out), R"(<defs><path id="slices{}" d=")", number);
   for (std::size_t k = 0; k < tube.line().slices(); ++k) {
     const Interval x = tube.slice(0, k);
     const Interval y = tube.slice(1, k);
     if (x.is_entire() || y.is_entire()) continue;
     put_rectangle(out, plot, x.lo(), x.hi(), y.lo(), y.hi(), 0.5);
   }
-  put(out, "\"/></defs><use href=\"#slices\" class=\"tube\"/><use href=\"#slices\" class=\"tube-fill\"/>\n");
+  const std::string style = color.empty() ? "" : fmt::format(R"( style="stroke:{0};fill:{0}")", color);
+  fmt::format_to(fmt::appender(out),
+                 "\"/></defs><use href=\"#slices{0}\" class=\"tube\"{1}/><use href=\"#slices{0}\" "
+                 "class=\"tube-fill\"{1}/>\n",
+                 number, style);
 }
 
 }  // namespace
@@ -163,16 +191,22 @@ void put_map(TextBuffer& out, double left, double top, double edge,
   const std::vector<Layer> layers = layers_of(shown, keys);
   const ResultVariable* leading = leading_tube(shown, presentation);
   const std::vector<std::vector<double>>* truth = truth_of(leading, presentation);
-  const Plot plot = frame_of(left, top, edge, layers, leading, truth);
+  std::vector<const ResultVariable*> paths = other_paths(shown, leading);
+  if (leading != nullptr) paths.push_back(leading);
+  const Plot plot = frame_of(left, top, edge, layers, paths, truth);
   open_clipped(out, plot, 0);
   for (const CellState state : {CellState::unknown, CellState::inside}) {
     for (const Layer& layer : layers) {
       if (layer.state == state) put_layer(out, plot, layer);
     }
   }
-  if (leading != nullptr) {
-    put_tube(out, plot, std::get<Tube>(leading->domain));
-    keys.push_back({leading->name, "#a9bdd6"});
+  const auto first_key = static_cast<std::ptrdiff_t>(keys.size());
+  for (std::size_t i = 0; i < paths.size(); ++i) {
+    const bool leads = paths[i] == leading;
+    const std::string color = leads ? "" : kSetColors[(i + 1) % kSetColors.size()];
+    put_tube(out, plot, std::get<Tube>(paths[i]->domain), i, color);
+    keys.insert(leads ? keys.begin() + first_key : keys.end(),
+                Key{paths[i]->name, leads ? "#a9bdd6" : color});
   }
   if (truth != nullptr) {
     std::vector<double> xs, ys;

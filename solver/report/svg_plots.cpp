@@ -135,7 +135,8 @@ std::vector<TimePlot> time_plots(const std::vector<const ResultVariable*>& shown
   for (const ResultVariable* variable : shown) {
     const auto* tube = std::get_if<Tube>(&variable->domain);
     if (tube == nullptr || tube->is_empty()) continue;
-    plots.push_back({variable, tube->dim()});
+    // Of a tube that is drawn so finely the slices' widths are how much it moves meanwhile.
+    if (!variable->shape.is_drawn) plots.push_back({variable, tube->dim()});
     for (std::size_t c = 0; c < std::min<std::size_t>(tube->dim(), 6); ++c) plots.push_back({variable, c});
   }
   return plots;

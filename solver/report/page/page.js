@@ -17,6 +17,13 @@ function leadingTube(data, tubes) {
   return tubes.find((tube) => data.truth[tube.name]) || tubes.find(changes) || tubes[0];
 }
 
+// Whether a tube on phases leads from where another starts to where that ends: ways to compare.
+function isSameWay(data, tube, other) {
+  if (!tube.drawn || !other.drawn) return false;
+  const a = lastDomain(data, tube.index), b = lastDomain(data, other.index);
+  return [0, a.items - 1].every((item) => [0, 1].every((c) => a.lo(c, item) <= b.hi(c, item) && b.lo(c, item) <= a.hi(c, item)));
+}
+
 // Of a paving, what its boxes are.
 function layersOfPaving(data) {
   return data.variables.filter((each) => each.kind === "paving").flatMap(({ index, name }) => {
@@ -41,7 +48,7 @@ function layersOf(data) {
   const tubes = data.variables.filter((each) => each.kind === "tube" && each.dim >= 2 && lastDomain(data, each.index));
   const leading = leadingTube(data, tubes);
   for (const tube of tubes) {
-    const { index, name, color } = tube, on = tube === leading;
+    const { index, name, color } = tube, on = tube === leading || isSameWay(data, tube, leading);
     layers.push({ kind: "tube", index, name, color, on });
     if (data.truth[name]) layers.push({ kind: "truth", index, name, color: "--truth", on });
   }

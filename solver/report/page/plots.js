@@ -30,8 +30,10 @@ class TimePlots {
       return most;
     };
     const most = d3.max(frames, (domain) => domain ? widest(domain) : 0);
-    const plots = [{ tube, truth, first, component: null, title: "width of " + tube.name,
-      range: [0, most > 0 ? 1.06 * most : 1], spread: most / (widest(last) || most) }];
+    const width = { tube, truth, first, component: null, title: "width of " + tube.name,
+      range: [0, most > 0 ? 1.06 * most : 1], spread: most / (widest(last) || most) };
+    // Of a tube that is drawn from phases the slices' widths are how much it moves meanwhile.
+    const plots = tube.drawn ? [] : [width];
     for (let c = 0; c < Math.min(tube.dim, 6); ++c) {
       const title = tube.dim === 1 ? tube.name : tube.name + subscript(c + 1);
       plots.push({ tube, truth, first, component: c, title, range: this.rangeOf(last, truth, c, first) });
