@@ -88,6 +88,9 @@ enum class Code : std::uint16_t {
   unbounded_frame = 313,
   data_outside = 314,
   no_grid = 315,
+  no_gate = 316,
+  no_polynomial = 317,
+  undefined_tube = 318,
 
   der_misplaced = 401,
   der_of_what = 402,

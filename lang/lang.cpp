@@ -7,6 +7,7 @@
 
 #include "domains/rounding.h"
 #include "lang/check/check.h"
+#include "lang/check/structure.h"
 #include "lang/compile/compile.h"
 #include "lang/data/file.h"
 #include "lang/loader.h"
@@ -64,6 +65,7 @@ void check_data_names(Compilation& compilation, const std::map<std::string, std:
 
 void build(Compilation& compilation, const CompileOptions& options) {
   Model model(*compilation.tree, compilation.diagnostics);
+  if (options.open_parameters) model.open_parameters = parameters_without_structure(*compilation.tree);
   check(model, options.data_files);
   compilation.types = dump_types(model);
   if (compilation.diagnostics.any()) return;

@@ -31,6 +31,9 @@ struct CompileOptions {
   std::map<std::string, std::string> parameters;
   /// `--data NAME=FILE`: files that replace those of the model, relative to the working folder.
   std::map<std::string, std::string> data_files;
+  /// Parameters that are reals or vectors, and that the structure of the model does not depend on, stay open:
+  /// Problem::parameter(). The values of the model, or of `parameters`, are what they are until they are set.
+  bool open_parameters = false;
   /// Where `include` looks for a file that is not beside the one that names it.
   std::vector<std::string> library = library_folders();
   Clock clock = steady_clock();

@@ -70,6 +70,31 @@ std::span<const CatalogueEntry> time_entries() {
                      "var r : real;\nconstraint {a : real[2] | norm(a) < r} subset {a : real[2] | a[1] < 1};",
                      "var r : real;\nvar D : set real[2] precision 0.1;\n"
                      "constraint D == {a | norm(a) < r};\nconstraint D subset {a | a[1] < 1};"},
+      CatalogueEntry{Code::no_gate, "this is no gate of a time line with phases: {}",
+                     "The instants of `time t in [0, T] phases tau` are unknown; they are called 0, gate(1), "
+                     "gate(2), ..., T.",
+                     "var T : real;\nvar tau : real[2];\ntime t in [0, T] phases tau;\nvar x : tube real;\n"
+                     "constraint der(x) == 1 and x(0) == 0 and x(0.5) == 1;",
+                     "var T : real;\nvar tau : real[2];\ntime t in [0, T] phases tau;\nvar x : tube real;\n"
+                     "constraint der(x) == 1 and x(0) == 0 and x(gate(1)) == 1;"},
+      CatalogueEntry{
+          Code::no_polynomial, "this cannot be said of polynomials: {}",
+          "On a time line with phases a tube is a polynomial on each phase, in the coefficients that are "
+          "found:\n"
+          "sums and products of tubes are, other functions of them are not. An inequality between tubes is\n"
+          "decided for every t where the sides differ by a polynomial of degree 3 at most.",
+          "var T : real;\nvar tau : real[2];\ntime t in [0, T] phases tau;\nvar x : tube real;\n"
+          "constraint der(x) == 1 and x(0) == 0 and sin(x) <= 0.5;",
+          "var T : real;\nvar tau : real[2];\ntime t in [0, T] phases tau;\nvar x : tube real;\n"
+          "constraint der(x) == 1 and x(0) == 0 and x^2 <= 0.5;"},
+      CatalogueEntry{
+          Code::undefined_tube, "the tube `{}` has no definition",
+          "On a time line with phases a tube is what `der(x) == f` or `x == f` makes of tubes that have a\n"
+          "definition, of numbers and of `hold(f)`, which is f[i] during phase i.",
+          "var T : real;\nvar tau : real[2];\ntime t in [0, T] phases tau;\nvar x : tube real;\n"
+          "constraint x <= 1;",
+          "var T : real;\nvar tau, v : real[2];\ntime t in [0, T] phases tau;\nvar x : tube real;\n"
+          "constraint der(x) == hold(v) and x <= 1;"},
   };
   return kEntries;
 }

@@ -68,6 +68,11 @@ Type Checker::check_function_call(const Expr& expr, const Symbol& function) {
   if (function.takes_instants) ++instants_to_find_;
   const bool at_instants = function.type.is(Type::Kind::boolean) && instants_to_find_ != instants_before;
   if (at_instants || function.states) model_.set_stated(expr);
+  const bool varies =
+      std::any_of(arguments.begin(), arguments.end(), [](const Type& type) { return type.tube; });
+  if (model_.has_phases() && varies && function.type.is(Type::Kind::boolean) &&
+      !holds_pointwise(*function.as<FunctionItem>()->body))
+    return not_supported(expr.range, "a choice at every instant on a time line with phases");
   Type type = function.type;
   for (std::size_t i = 0; i < arguments.size(); ++i) {
     const Type& wanted = function.parameters[i];
@@ -103,7 +108,7 @@ Type Checker::check_instant(const Expr& expr, const Type& callee) {
     return {};
   }
   if (type.tube) {
-    if (delay_of(instant) != nullptr) return at;
+    if (delay_of(instant) != nullptr && !model_.has_phases()) return at;
     return not_supported(instant.range, "a tube at a time that is not `t - d` with a constant d");
   }
   take_instant(instant, type);
@@ -122,6 +127,7 @@ const Expr* Checker::delay_of(const Expr& instant) const {
 }
 
 void Checker::take_instant(const Expr& instant, const Type& type) {
+  if (model_.has_phases()) return;  // the compiler sees whether it is a gate
   if (type.known == Known::now) model_.instants.push_back(&instant);
   // Of a parameter of a function it shows at the call only whether the instant is known.
   if (type.known == Known::by_solving || type.known == Known::at_call) ++instants_to_find_;
@@ -129,6 +135,12 @@ void Checker::take_instant(const Expr& instant, const Type& type) {
 
 // integral(x, a, b), of a number or a vector that varies with time or does not.
 Type Checker::check_integral(const Expr& expr) {
+  if (model_.has_phases()) {
+    diagnostics()
+        .report(Code::not_supported, expr.range, "`integral` on a time line with phases")
+        .note("declare a tube y with der(y) == x and y(0) == 0");
+    return {};
+  }
   const Type type = check(*expr.operands[1]);
   bool bad = type.is_error();
   if (!bad && (!type.is(Type::Kind::real) || type.is_array() || type.is_matrix())) {
@@ -200,7 +212,11 @@ Type Checker::check_built_in(const Expr& expr, const BuiltInFunction& function) 
     case BuiltIn::last:
     case BuiltIn::rows:
       return check_data_function(expr, function, arguments);
+    case BuiltIn::gate:
+      return check_gate(expr, arguments[0]);
     case BuiltIn::hold:
+      if (arguments.size() == 1) return check_hold_in_phases(expr, arguments[0]);
+      return check_given_function(expr, function, arguments);
     case BuiltIn::sampled:
       return check_given_function(expr, function, arguments);
     case BuiltIn::min:
@@ -273,6 +289,7 @@ Type Checker::check_data_function(const Expr& expr, const BuiltInFunction& funct
 
 Type Checker::check_given_function(const Expr& expr, const BuiltInFunction& function,
                                    const std::vector<Type>& arguments) {
+  if (model_.has_phases()) return not_supported(expr.range, "data on a time line with phases");
   if (!arguments[0].is(Type::Kind::column) || arguments[0].dim != 0) {
     diagnostics().report(Code::wrong_type, expr.operands[1]->range, "a column of stamps",
                          describe(arguments[0]));

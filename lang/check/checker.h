@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The checker's state. Its functions are spread over items.cpp, expressions.cpp, calls.cpp and sets.cpp.
+// The checker's state. Its functions are spread over items.cpp, expressions.cpp, calls.cpp, phases.cpp and
+// sets.cpp.
 #pragma once
 
 #include <algorithm>
@@ -36,6 +37,8 @@ class Checker {
   void check_parameter(Symbol& symbol, const ParamItem& item);
   void check_data(Symbol& symbol, const DataItem& item);
   void check_time(Symbol& symbol, const TimeItem& item);
+  void check_phases(const TimeItem& item);
+  void check_span_of_phases(const Expr& span);
   void check_function(Symbol& symbol, const FunctionItem& item);
   void check_given(Symbol& symbol, const GivenItem& item);
   void check_variable(Symbol& symbol, const VarItem& item);
@@ -51,6 +54,7 @@ class Checker {
   /// Whether a value of type `found` may stand where `wanted` is declared; reports otherwise.
   bool require_domain(const Expr& value, const Type& found, const Type& wanted);
   bool require_constant(const Expr& expr, const Type& type);
+  bool require_parameters(const Expr& expr);
   /// Known by the time the model is compiled: it may use parameters of functions and bound whole numbers.
   bool require_known(const Expr& expr, const Type& type);
   void require_stated(const Expr& expr, const Type& found);
@@ -100,6 +104,9 @@ class Checker {
   Type check_given_function(const Expr& expr, const BuiltInFunction& function,
                             const std::vector<Type>& arguments);
   Type check_der(const Expr& expr);
+  Type check_hold_in_phases(const Expr& expr, const Type& values);
+  Type check_gate(const Expr& expr, const Type& count);
+  [[nodiscard]] bool holds_pointwise(const Expr& relation) const;
   Type check_integral(const Expr& expr);
   [[nodiscard]] const Expr* delay_of(const Expr& instant) const;
   void take_instant(const Expr& instant, const Type& type);

@@ -131,7 +131,9 @@ void Checker::check_symbol(Symbol& symbol) {
 void Checker::check_parameter(Symbol& symbol, const ParamItem& item) {
   const Type found = check(*item.value);
   if (symbol.state == Symbol::State::done || found.is_error()) return;  // a cycle was reported
-  if (!require_constant(*item.value, found)) return;
+  const bool may_be_open = model_.open_parameters.contains(symbol.name.text) && found.is(Type::Kind::real) &&
+                           (found.is_scalar() || found.is_vector()) && !found.tube;
+  if (may_be_open ? !require_parameters(*item.value) : !require_constant(*item.value, found)) return;
   Type wanted = found;
   if (item.type != nullptr) {
     wanted = resolve(*item.type);
@@ -151,11 +153,24 @@ void Checker::check_parameter(Symbol& symbol, const ParamItem& item) {
                          describe(found));
     return;
   }
-  symbol.unknown = found.is(Type::Kind::domain);
+  symbol.open = may_be_open && wanted.has_shape_of(found) && !wanted.whole && !wanted.is(Type::Kind::boolean);
+  symbol.unknown = found.is(Type::Kind::domain) || symbol.open;
   symbol.type = wanted;
   if (symbol.unknown) symbol.type.kind = Type::Kind::real;
   symbol.type.known = symbol.unknown ? Known::by_solving : Known::now;
   model_.definitions.push_back(&symbol);
+}
+
+// The value of an open parameter is made of constants and of other parameters.
+bool Checker::require_parameters(const Expr& expr) {
+  if (model_.type(expr).known == Known::now) return true;
+  const Symbol* symbol = expr.kind == ExprKind::name ? model_.reference(expr).symbol : nullptr;
+  const auto* let = symbol == nullptr ? nullptr : symbol->as<LetItem>();
+  if (let != nullptr) return require_parameters(*let->value);
+  const bool is_unknown = symbol != nullptr && !symbol->open && names_unknown(expr);
+  if (is_unknown) diagnostics().report(Code::not_constant, expr.range);
+  return !is_unknown && std::all_of(expr.operands.begin(), expr.operands.end(),
+                                    [&](const Expr* operand) { return require_parameters(*operand); });
 }
 
 void Checker::check_data(Symbol& symbol, const DataItem& item) {
@@ -188,10 +203,7 @@ void Checker::check_data(Symbol& symbol, const DataItem& item) {
 
 void Checker::check_time(Symbol& symbol, const TimeItem& item) {
   symbol.type = {Type::Kind::real, true, 0, Known::by_solving, nullptr};
-  if (item.phases != nullptr) {
-    not_supported(item.phases->range, "a time line with phases");
-    return;
-  }
+  if (item.phases != nullptr) return check_phases(item);
   if (item.stamps != nullptr) {
     const Type type = check(*item.stamps);
     if (!type.is_error() && (!type.is(Type::Kind::column) || type.dim != 0)) {
@@ -307,7 +319,12 @@ void Checker::check_let(Symbol& symbol, const LetItem& item) {
 
 void Checker::check_constraint(const ConstraintItem& item) {
   const Type type = check(*item.relation);
-  if (type.is_error() || type.is(Type::Kind::boolean)) return;
+  if (type.is_error()) return;
+  if (type.is(Type::Kind::boolean)) {
+    if (item.is_implied && model_.is_stated(*item.relation))
+      not_supported(item.relation->range, "`implied` of more than a relation between numbers");
+    return;
+  }
   diagnostics().report(Code::not_a_relation, item.relation->range, describe(type));
 }
 

@@ -254,6 +254,15 @@ void Checker::lift(const Expr& expr, Type& type, bool conjunction) {
   const bool of_truths = type.tube && !pointwise_ && !conjunction;
   const bool of_stated = std::any_of(expr.operands.begin(), expr.operands.end(),
                                      [&](const Expr* operand) { return model_.is_stated(*operand); });
+  if (of_truths && model_.has_phases()) {
+    type.tube = false;
+    if (of_stated) model_.set_stated(expr);
+    return;
+  }
+  if (type.tube && !conjunction && model_.has_phases()) {
+    type = not_supported(expr.range, "a choice at every instant on a time line with phases");
+    return;
+  }
   if (of_truths || of_stated) model_.set_stated(expr);
   if (of_truths) type.tube = false;
 }

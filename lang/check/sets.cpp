@@ -118,13 +118,14 @@ bool Checker::binds_time(const Expr& expr) {
     diagnostics().report(Code::wrong_type, bound.domain->range, "a span of time `[a, b]`", describe(window));
     return false;
   }
-  if (!require_constant(*bound.domain, window)) return false;
+  // Whether they are gates of phases the compiler sees.
+  if (!model_.has_phases() && !require_constant(*bound.domain, window)) return false;
   for (const Expr* end : bound.domain->operands) {
     if (model_.type(*end).is_error()) {  // oo
       diagnostics().report(Code::misplaced_infinity, end->range);
       return false;
     }
-    model_.instants.push_back(end);
+    if (!model_.has_phases()) model_.instants.push_back(end);
   }
   return true;
 }
@@ -146,6 +147,8 @@ Type Checker::check_quantified(const Expr& expr, std::uint32_t dim) {
 // forall(t) and exists(t).
 Type Checker::check_over_time(const Expr& expr) {
   if (!binds_time(expr)) return {};
+  if (model_.has_phases() && expr.quantifier != Quantifier::forall)
+    return not_supported(expr.range, "`exists` on a time line with phases");
   const bool nested = std::exchange(pointwise_, true);
   const Type body = check(*expr.operands[0]);
   pointwise_ = nested;
@@ -154,7 +157,9 @@ Type Checker::check_over_time(const Expr& expr) {
     diagnostics().report(Code::wrong_type, expr.operands[0]->range, "a relation", describe(body));
     return {};
   }
-  model_.set_stated(expr);
+  const bool is_relation =
+      model_.has_phases() && expr.bindings[0].domain == nullptr && !model_.is_stated(*expr.operands[0]);
+  if (!is_relation) model_.set_stated(expr);
   return {Type::Kind::boolean, false, 0, Known::by_solving, nullptr};
 }
 

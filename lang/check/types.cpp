@@ -41,6 +41,8 @@ Type Checker::resolve(const TypeExpr& written) {
     diagnostics().report(Code::bad_set_dimension, written.range, describe(type));
     return {};
   }
+  if (type.is(Type::Kind::set) && model_.has_phases())
+    return not_supported(written.range, "a set on a time line with phases");
   if (type.tube && model_.time == nullptr) {
     diagnostics().report(Code::no_time_line, written.range);
     return {};

@@ -17,6 +17,9 @@
 
 namespace hcsp::lang {
 
+/// Whether a symbol is an unknown of the problem.
+bool is_unknown(const Symbol& symbol);
+
 class Compiler {
  public:
   /// `further` are instants of the time line that the model does not spell out.
@@ -38,6 +41,7 @@ class Compiler {
   void find_objective();
   void plan_tubes();
   bool make_time_line();
+  [[nodiscard]] bool is_planned(const Expr& domain) const;
   std::vector<double> known_instants();
   std::optional<TimeLine> grid(const TimeItem& item, const std::vector<double>& further);
   std::optional<TimeLine> line_of_stamps(const TimeItem& item, std::vector<double> further);
@@ -50,10 +54,19 @@ class Compiler {
   bool require_time_alone(const Term& term, const Expr& written);
   std::optional<Unknowns::Handle> make_plain(const Symbol& symbol, const std::string& name,
                                              std::size_t element);
+  std::optional<Unknowns::Handle> make_parameter(const Symbol& symbol, const std::string& name);
   std::optional<Unknowns::Handle> make_set(const Symbol& symbol, const std::string& name,
                                            const VarItem& item);
   std::optional<double> precision_of(const Expr& expr);
   std::optional<Box> frame_of(const Expr& expr);
+
+  // Time lines with phases (phases.cpp).
+  bool make_phases();
+  [[nodiscard]] bool is_duration(const Symbol& symbol) const;
+  void define_phases();
+  void state_over_phases(const Expr& expr, bool wanted);
+  std::optional<std::size_t> gate_in(const Expr& expr);
+  void report(const PhaseError& error);
 
   // Constraints (constraints.cpp).
   void compile_constraint(const ConstraintItem& item);
@@ -147,8 +160,11 @@ class Compiler {
   };
   std::optional<StatedDomain> evaluate_domain(const Expr& expr);
   std::unordered_map<const Expr*, std::optional<StatedDomain>> domains_;
-  std::string constraint_;                      // the name of the constraint at hand
-  std::unordered_map<std::string, int> names_;  // of all constraints: how often they were asked for
+  std::string constraint_;                               // the name of the constraint at hand
+  bool is_implied_ = false;                              // which is implied
+  SourceRange place_;                                    // and where it is
+  std::unordered_map<std::string, SourceRange> places_;  // of what was stated, by its name
+  std::unordered_map<std::string, int> names_;           // of all constraints: how often they were asked for
 };
 
 }  // namespace hcsp::lang

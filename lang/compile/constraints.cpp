@@ -6,6 +6,7 @@
 namespace hcsp::lang {
 
 void Compiler::compile_constraint(const ConstraintItem& item) {
+  place_ = item.relation->range;
   if (item.name) {
     constraint_ = item.name->text;
   } else {
@@ -13,13 +14,16 @@ void Compiler::compile_constraint(const ConstraintItem& item) {
     constraint_ = fmt::format("line {}", place.line);
     if (names_.contains(constraint_)) constraint_ += fmt::format(":{}", place.column);
   }
+  const bool outer = std::exchange(is_implied_, item.is_implied);
   state(*item.relation);
+  is_implied_ = outer;
 }
 
 // A constraint that is the conjunction of several contractors numbers them.
 std::string Compiler::next_name() {
   std::string name = constraint_;
   while (++names_[name] > 1) name = fmt::format("{}.{}", constraint_, names_[constraint_]);
+  places_[name] = place_;
   return name;
 }
 
@@ -45,7 +49,8 @@ void Compiler::state_truth(const Term& relation) {
   const auto known = Evaluator::truth(relation);
   if (known && *known) return;
   const hcsp::Expr expr = expression_of(*problem_, relation);
-  problem_->constrain(next_name(), known ? expr == problem_->constant(Interval(1.0)) : expr);
+  const hcsp::Expr stated = known ? expr == problem_->constant(Interval(1.0)) : expr;
+  is_implied_ ? problem_->imply(next_name(), stated) : problem_->constrain(next_name(), stated);
 }
 
 // A derivative or a range alone on one side.

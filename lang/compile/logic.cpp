@@ -34,6 +34,9 @@ bool Compiler::connects(const Expr& expr) const {
 void Compiler::state(const Expr& written, bool wanted) {
   const Expr& expr = model_.unfold(written);
   const bool is_conjunction = expr.kind == ExprKind::binary && expr.op == Operator::logical_and;
+  const bool is_for_each =
+      expr.kind == ExprKind::quantified && expr.quantifier == Quantifier::forall && ranges_over_numbers(expr);
+  if (is_for_each && wanted) return state_for_each(expr, true);
   // Of what holds one by one at every instant, not all hold when one of them fails at some instant.
   const bool one_truth = evaluator_.varies(expr) && of_time_ == OfTime::one_truth;
   if (!model_.is_stated(expr) && (wanted || !one_truth)) return state_relation(expr, wanted);
@@ -198,6 +201,7 @@ std::optional<Window> Compiler::window_of(const Expr& expr) {
 
 // The quantifier binds t anew, whatever instant stands around it.
 void Compiler::state_over_time(const Expr& expr, bool wanted) {
+  if (model_.has_phases()) return state_over_phases(expr, wanted);
   if (of_time_ == OfTime::this_instant)
     return not_supported(expr.range, "a quantifier over time within a choice at every instant");
   const std::size_t before = model_.diagnostics().count();

@@ -21,11 +21,11 @@ const Expr* stated_domain(const Symbol& symbol) {
   return nullptr;
 }
 
+}  // namespace
+
 bool is_unknown(const Symbol& symbol) {
   return symbol.unknown || symbol.as<GivenItem>() != nullptr || symbol.as<VarItem>() != nullptr;
 }
-
-}  // namespace
 
 // Instants that show only when constraints are put together (x(i*dt), i in 1..n) join the time line, and the
 // model is compiled once more.
@@ -43,13 +43,16 @@ std::unique_ptr<Problem> compile(Model& model) {
 std::unique_ptr<Problem> Compiler::run() {
   plan_tubes();
   if (model_.diagnostics().any()) return nullptr;
-  if (model_.time != nullptr && !make_time_line()) return nullptr;
+  for (const Symbol* symbol : model_.definitions) {
+    if (symbol->open) make_unknown(*symbol);
+  }
+  if (model_.has_phases() ? !make_phases() : model_.time != nullptr && !make_time_line()) return nullptr;
   for (const Symbol& symbol : model_.symbols) {
-    if (is_unknown(symbol)) make_unknown(symbol);
+    if (is_unknown(symbol) && !unknowns_.handles.contains(&symbol)) make_unknown(symbol);
   }
   for (const Symbol& symbol : model_.symbols) {
     const Expr* domain = is_unknown(symbol) ? stated_domain(symbol) : nullptr;
-    if (domain != nullptr && symbol.type.tube && model_.type(*domain).known != Known::now)
+    if (domain != nullptr && symbol.type.tube && !is_planned(*domain))
       state_domain_over_time(symbol, *domain);
   }
   if (model_.diagnostics().any()) return nullptr;
@@ -62,6 +65,7 @@ std::unique_ptr<Problem> Compiler::run() {
   for (const Item& item : model_.tree().items) {
     if (const auto* constraint = std::get_if<ConstraintItem>(&item.content)) compile_constraint(*constraint);
   }
+  if (!model_.diagnostics().any()) define_phases();
   check_goal();
   if (model_.diagnostics().any()) return nullptr;
   return std::move(problem_);
@@ -112,10 +116,15 @@ void Compiler::find_paved() {
 
 // ---- The time line.
 
+// A constant domain is part of the tube; any other, and with phases all, are stated.
+bool Compiler::is_planned(const Expr& domain) const {
+  return model_.type(domain).known == Known::now && !model_.has_phases();
+}
+
 void Compiler::plan_tubes() {
   for (const Symbol& symbol : model_.symbols) {
     const Expr* domain = is_unknown(symbol) ? stated_domain(symbol) : nullptr;
-    if (domain == nullptr || !symbol.type.tube || model_.type(*domain).known != Known::now) continue;
+    if (domain == nullptr || !symbol.type.tube || !is_planned(*domain)) continue;
     if (auto plan = plan_tube(model_, evaluator_, *domain)) plans_.emplace(&symbol, std::move(*plan));
   }
 }
@@ -246,6 +255,7 @@ std::optional<Unknowns::Handle> Compiler::make_element(const Symbol& symbol, con
 }
 
 std::optional<Unknowns::Handle> Compiler::make_tube(const Symbol& symbol, const std::string& name) {
+  if (model_.has_phases()) return problem_->tube(name, symbol.type.components());
   const std::size_t bounds = problem_->time_line()->items() * symbol.type.components();
   if (bounds > kMostTubeBounds) {
     model_.diagnostics().report(
@@ -276,6 +286,7 @@ void Compiler::state_domain_over_time(const Symbol& symbol, const Expr& domain) 
     bounds = evaluator_.domain(domain);
   }
   constraint_ = fmt::format("domain of {}", symbol.name.text);
+  place_ = domain.range;
   std::size_t component = 0;
   for (const Unknowns::Handle& handle : unknowns_.handles.at(&symbol)) {
     // A domain of one element serves all of an array.
@@ -307,6 +318,7 @@ std::optional<Unknowns::Handle> Compiler::make_plain(const Symbol& symbol, const
                                                      std::size_t element) {
   const Type& type = symbol.type;
   if (type.is(Type::Kind::boolean)) return problem_->boolean(name);
+  if (symbol.open) return make_parameter(symbol, name);
   Box box(static_cast<Eigen::Index>(type.components())), certain = box;
   if (const Expr* domain = stated_domain(symbol)) {
     // A domain of one element serves them all.
@@ -320,6 +332,12 @@ std::optional<Unknowns::Handle> Compiler::make_plain(const Symbol& symbol, const
       certain[i] = stated->certain[first + i];
     }
   }
+  if (is_duration(symbol)) {
+    for (Eigen::Index i = 0; i < box.dim(); ++i) {
+      box[i] = meet(box[i], Interval(0.0, kInfinity));
+      certain[i] = meet(certain[i], box[i]);
+    }
+  }
   const auto made = [&](auto unknown) -> Unknowns::Handle {
     for (Eigen::Index i = 0; i < box.dim(); ++i) {
       if (!(certain[i] == box[i]))
@@ -331,6 +349,24 @@ std::optional<Unknowns::Handle> Compiler::make_plain(const Symbol& symbol, const
   if (type.dim != 0) return made(problem_->vector(name, box));
   if (type.whole) return made(problem_->integer(name, box[0]));
   return made(problem_->real(name, box[0]));
+}
+
+// Its value may be an expression of other parameters.
+std::optional<Unknowns::Handle> Compiler::make_parameter(const Symbol& symbol, const std::string& name) {
+  const Value value = evaluator_.value(*symbol.as<ParamItem>()->value);
+  if (value.empty()) return {};
+  VectorExpr follows;
+  Box box(static_cast<Eigen::Index>(value.size()));
+  for (std::size_t i = 0; i < value.size(); ++i) {
+    const auto* number = std::get_if<Number>(&value[i]);
+    if (number != nullptr) box[static_cast<Eigen::Index>(i)] = number->enclosure;
+    follows.push_back(expression_of(*problem_, value[i]));
+  }
+  const bool is_known = std::all_of(value.begin(), value.end(),
+                                    [](const Term& term) { return std::holds_alternative<Number>(term); });
+  if (symbol.type.is_scalar())
+    return is_known ? problem_->parameter(name, box[0]) : problem_->parameter(name, follows.front());
+  return is_known ? problem_->parameter_vector(name, box) : problem_->parameter_vector(name, follows);
 }
 
 std::optional<Compiler::StatedDomain> Compiler::evaluate_domain(const Expr& expr) {

@@ -56,12 +56,43 @@ Value Evaluator::at_instant(const Expr& expr) {
 Instant Evaluator::instant_of(const Expr& expr) {
   const Value written = value(expr);
   if (written.empty()) return {};
+  if (model_.has_phases()) return instant_of_phases(expr, expression(written.front()));
   if (const auto* found = std::get_if<hcsp::Expr>(&written.front())) {
     if (!require_all_time(expr, "an instant to be found")) return {};
     instants_to_find_.push_back(*found);
     return *found;
   }
   return known_instant(expr, std::get<Number>(written.front()));
+}
+
+Instant Evaluator::instant_of_phases(const Expr& expr, const hcsp::Expr& instant) {
+  if (unknowns_->problem.gate_at(instant)) return instant;
+  model_.diagnostics().report(Code::no_gate, expr.range, "an instant is 0, T or `gate(k)`");
+  return {};
+}
+
+// gate(k), the instant after k phases.
+Value Evaluator::gate(const Expr& expr) {
+  const auto count = whole(*expr.operands[1]);
+  if (!count) return {};
+  const auto phases = static_cast<int>(unknowns_->problem.phases());
+  if (*count >= 0 && *count <= phases) return {unknowns_->problem.gate(static_cast<std::size_t>(*count))};
+  model_.diagnostics().report(Code::index_outside, expr.operands[1]->range, *count, 0, phases);
+  return {};
+}
+
+// hold(f): f[i] during phase i. At a gate it is what comes after.
+Value Evaluator::hold(const Expr& expr) {
+  const Value values = value(*expr.operands[1]);
+  if (values.empty()) return {};
+  Problem& problem = unknowns_->problem;
+  const std::size_t dim = values.size() / problem.phases();
+  std::vector<VectorExpr> by_phase(problem.phases());
+  for (std::size_t i = 0; i < values.size(); ++i) by_phase[i / dim].push_back(expression(values[i]));
+  const TubeVariable held = problem.hold(by_phase);
+  Value components;
+  for (std::size_t c = 0; c < dim; ++c) components.emplace_back(*unknowns_->component(held, c, instant_));
+  return components;
 }
 
 // x(t - d) and x(t + d), at the time at hand or at an earlier one.
@@ -136,6 +167,8 @@ Value Evaluator::built_in(const Expr& expr, BuiltIn function) {
     return count ? at_least(*count, relations) : Value{};
   }
   if (function == BuiltIn::integral) return integral(expr);
+  if (function == BuiltIn::gate) return gate(expr);
+  if (function == BuiltIn::hold) return hold(expr);
   std::vector<Value> arguments;
   for (std::size_t i = 1; i < expr.operands.size(); ++i) {
     arguments.push_back(value(*expr.operands[i]));

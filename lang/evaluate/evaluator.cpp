@@ -177,6 +177,8 @@ Value Evaluator::value_of_kind(const Expr& expr) {
       return comprehension(expr);
     case ExprKind::quantified:
       if (ranges_over_numbers(expr)) return over_range(expr);
+      if (model_.has_phases() && expr.bindings[0].domain == nullptr)
+        return value(*expr.operands[0]);  // forall(t)
       if (expr.quantifier == Quantifier::forall || expr.quantifier == Quantifier::exists)
         return over_reals(expr);
       return value(*expr.operands[0]);  // the body of a minimum over a set

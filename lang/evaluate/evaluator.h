@@ -149,6 +149,7 @@ class Evaluator {
   Value at_instant(const Expr& expr);
   Instant known_instant(const Expr& expr, const Number& written);
   Instant instant_of(const Expr& expr);
+  Instant instant_of_phases(const Expr& expr, const hcsp::Expr& instant);
   Instant delayed(const Expr& instant);
   [[nodiscard]] bool moves_with_time() const {
     return std::holds_alternative<std::monostate>(instant_) || std::holds_alternative<Delay>(instant_);
@@ -157,6 +158,8 @@ class Evaluator {
   bool require_all_time(const Expr& expr, std::string_view what);
   Value built_in(const Expr& expr, BuiltIn function);
   Value data_value(const Expr& expr, BuiltIn function);
+  Value gate(const Expr& expr);
+  Value hold(const Expr& expr);
 
   std::optional<Column> member(const Expr& expr);
   std::optional<std::vector<Column>> column_arithmetic(const Expr& expr);

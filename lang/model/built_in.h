@@ -49,6 +49,8 @@ enum class BuiltIn : std::uint8_t {
   rows,
   hold,
   sampled,
+  // On a time line with phases; hold is there, too.
+  gate,
   // In constraints.
   der,
   integral,

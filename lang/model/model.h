@@ -6,6 +6,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <unordered_map>
 #include <variant>
@@ -31,6 +32,7 @@ struct Symbol {
   State state = State::unvisited;
   Type type;                      ///< of the value; of a function, its result
   bool unknown = false;           ///< a parameter whose value is a domain: an unknown of that domain
+  bool open = false;              ///< a parameter whose value is given when the compiled problem is solved
   bool takes_instants = false;    ///< tubes at instants to be found occur in its definition
   bool states = false;            ///< of a function: its body is stated as a constraint
   std::vector<Type> parameters;   ///< of a function
@@ -75,7 +77,10 @@ class Model {
   std::unordered_map<std::string_view, Symbol*> by_name;
   std::vector<const Symbol*> definitions;  ///< parameters and lets, each after those that it uses
   const Symbol* time = nullptr;
+  /// Whether the instants of the time line are unknown: `time t in [0, T] phases tau`.
+  [[nodiscard]] bool has_phases() const { return time != nullptr && time->as<TimeItem>()->phases != nullptr; }
   const SolveItem* goal = nullptr;
+  std::set<std::string_view> open_parameters;  ///< those that stay open where their types allow it
   double precision = 0.0;               ///< of the goal; 0 where it states none. The compiler finds it.
   std::optional<hcsp::Expr> objective;  ///< of the goal; the compiler finds it too
   std::vector<hcsp::Expr> paved;        ///< of `solve pave`: the coordinates. The compiler finds them.

@@ -176,6 +176,7 @@ struct LetItem {
 struct ConstraintItem {
   std::optional<Name> name;
   Expr* relation = nullptr;
+  bool is_implied = false;  // `implied`: it follows, or may be assumed
 };
 struct SolveItem {
   enum class Goal : std::uint8_t { propagate, all, pave, minimize, maximize };

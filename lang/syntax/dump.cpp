@@ -82,7 +82,8 @@ struct ItemDump {
     return fmt::format("(let {} {} {})", item.name.text, dump(item.type), dump(*item.value));
   }
   std::string operator()(const ConstraintItem& item) const {
-    return fmt::format("(constraint {} {})", item.name ? item.name->text : "_", dump(*item.relation));
+    return fmt::format("({} {} {})", item.is_implied ? "implied" : "constraint",
+                       item.name ? item.name->text : "_", dump(*item.relation));
   }
   std::string operator()(const SolveItem& item) const {
     const char* goals[] = {"propagate", "all", "pave", "minimize", "maximize"};

@@ -165,7 +165,7 @@ class Spacing {
     after_quantifier_ = prefix && token.kind != TokenKind::minus;
     after_prefix_minus_ = prefix && token.kind == TokenKind::minus;
     ++count_;
-    is_label_ = count_ == 2 && last_ == TokenKind::kw_constraint;
+    is_label_ = count_ == 2 && (last_ == TokenKind::kw_constraint || last_ == TokenKind::kw_implied);
     last_ = token.kind;
     last_text_ = token.text();
   }

@@ -19,6 +19,7 @@ bool starts_item(TokenKind kind) {
     case TokenKind::kw_var:
     case TokenKind::kw_let:
     case TokenKind::kw_constraint:
+    case TokenKind::kw_implied:
     case TokenKind::kw_solve:
     case TokenKind::kw_show:
       return true;
@@ -28,8 +29,9 @@ bool starts_item(TokenKind kind) {
 }
 
 const std::vector<std::string>& item_words() {
-  static const std::vector<std::string> words{"model", "include", "param", "data",       "time",  "function",
-                                              "given", "var",     "let",   "constraint", "solve", "show"};
+  static const std::vector<std::string> words{"model",    "include", "param", "data", "time",
+                                              "function", "given",   "var",   "let",  "constraint",
+                                              "implied",  "solve",   "show"};
   return words;
 }
 
@@ -71,6 +73,7 @@ void report(const SyntaxError& error, const Token* first, Diagnostics& diagnosti
   if (error.expected == "an item") {
     diagnostic.note(
         "an item starts with model, include, param, data, time, function, given, var, let, constraint, "
+        "implied, "
         "solve or show");
     if (found.kind == TokenKind::identifier) diagnostic.did_you_mean(found.text(), item_words());
   }

@@ -61,6 +61,7 @@ enum class TokenKind : std::uint8_t {
   kw_given,
   kw_if,
   kw_iff,
+  kw_implied,
   kw_implies,
   kw_in,
   kw_include,

@@ -51,6 +51,16 @@ std::string line(const Tube& tube) {
   return fmt::format("{}; {}", slices.text("slices"), gates.text("gates"));
 }
 
+std::string line(const PolynomialTube& tube) {
+  Widths gates;
+  for (std::size_t gate = 0; gate <= tube.phases(); ++gate) {
+    double width = 0.0;
+    for (std::size_t c = 0; c < tube.dim(); ++c) width = std::max(width, tube.gate(c, gate).width());
+    gates.add(width);
+  }
+  return fmt::format("degree {} on {} phases; {}", tube.degree(), tube.phases(), gates.text("gates"));
+}
+
 std::string bound(double value) {
   if (std::isinf(value)) return value > 0 ? "oo" : "-oo";
   return fmt::format("{}", value + 0.0);  // no -0
