@@ -31,3 +31,6 @@ foreach(set D M)
     message(FATAL_ERROR "slam_builder and slam.hcsp give different domains of ${set}")
   endif()
 endforeach()
+
+# Seven joints, replanned every cycle to the end of the move.
+run(${WORK_DIR}/build/control_loop ${WORK_DIR}/prefix/share/hcsp/models/straight_line/type3.hcsp)
