@@ -4,6 +4,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <regex>
+
 #include "corpus.h"
 #include "lang/minibex/words.h"
 #include "lang/syntax/token.h"
@@ -56,6 +58,24 @@ TEST(Docs, ListEveryDiagnostic) {
 TEST(Docs, ListEveryReservedWord) {
   const std::string text = page();
   for (const std::string& word : keywords()) EXPECT_THAT(text, testing::HasSubstr(fmt::format("`{}`", word)));
+}
+
+// Links between pages, and from pages to files, lead somewhere.
+TEST(Docs, LinksLeadToFiles) {
+  const std::filesystem::path root = HCSP_SOURCE_DIR;
+  std::vector<std::filesystem::path> pages{root / "README.md", root / "CONTRIBUTING.md"};
+  for (const auto& entry : std::filesystem::directory_iterator(root / "docs")) {
+    if (entry.path().extension() == ".md") pages.push_back(entry.path());
+  }
+  const std::regex link(R"(\]\(([^)#:\s]+)(#[^)]*)?\))");
+  for (const std::filesystem::path& from : pages) {
+    const std::string text = read_text(from);
+    for (std::sregex_iterator found(text.begin(), text.end(), link); found != std::sregex_iterator();
+         ++found) {
+      EXPECT_TRUE(std::filesystem::exists(from.parent_path() / (*found)[1].str()))
+          << from << ": " << (*found)[1];
+    }
+  }
 }
 
 }  // namespace

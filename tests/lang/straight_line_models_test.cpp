@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: Apache-2.0
+// The models of motion along a line: each with a goal compiles, and is solved as its header says, with the
+// values that its parameters come with and with others.
+#include <gtest/gtest.h>
+
+#include <regex>
+
+#include "corpus.h"
+#include "lang/online.h"
+
+namespace hcsp::lang {
+namespace {
+
+const std::filesystem::path kStraightLine =
+    std::filesystem::path(HCSP_SOURCE_DIR) / "models" / "straight_line";
+
+std::string path_of(const std::string& name) { return (kStraightLine / (name + ".hcsp")).string(); }
+
+void expect_bracket(CompiledProblem& problem, double optimum, double most) {
+  EXPECT_EQ(problem.solve(), OnlineStatus::solved) << problem.reason();
+  ASSERT_TRUE(problem.has_solution());
+  EXPECT_LE(problem.objective().lo(), optimum + most) << to_string(problem.objective());
+  EXPECT_GE(problem.objective().hi(), optimum - most) << to_string(problem.objective());
+  EXPECT_LE(problem.objective().width(), 2 * most);
+}
+
+TEST(StraightLineModels, AreSolvedAsTheirHeadersSay) {
+  static const std::regex kOptimum(R"(// minimum: (\S+) \+- (\S+))");
+  std::size_t checked = 0;
+  for (const auto& path : models_in(kStraightLine)) {
+    SCOPED_TRACE(path.filename().string());
+    std::istringstream lines(read_text(path));
+    std::smatch match;
+    for (std::string line; std::getline(lines, line);) {
+      if (!std::regex_match(line, match, kOptimum)) continue;
+      const Compilation compilation = compile_file(path.string());
+      ASSERT_TRUE(compilation.model.has_value()) << compilation.diagnostics.text();
+      CompiledProblem problem = hcsp::compile(*compilation.model->problem, compilation.model->objective);
+      expect_bracket(problem, std::stod(match[1]), std::stod(match[2]));
+      ++checked;
+    }
+  }
+  EXPECT_GE(checked, 9U);
+}
+
+// The general search, of which the compiled problem gives the first solution, proves the same bracket.
+TEST(StraightLineModels, AreSolvedBySearchToo) {
+  for (const auto& [name, optimum] :
+       {std::pair("type1", 2.5), {"type2", 2.5}, {"type3", 2.6}, {"type4", 2.6}, {"type5", 2.6}}) {
+    SCOPED_TRACE(name);
+    const Compilation compilation = compile_file(path_of(name));
+    ASSERT_TRUE(compilation.model.has_value()) << compilation.diagnostics.text();
+    SearchOptions options;
+    options.precision = compilation.model->precision;
+    const Result result = compilation.model->problem->minimize(*compilation.model->objective, options);
+    EXPECT_EQ(result.status, Status::solved);
+    EXPECT_TRUE(result.objective->contains(optimum)) << to_string(*result.objective);
+    EXPECT_LE(result.objective->width(), 1e-9);
+  }
+}
+
+using Numbers = std::vector<double>;
+
+class Motion {
+ public:
+  explicit Motion(const std::string& type, std::size_t joints)
+      : problem_(compile(path_of(type), options(joints))) {}
+  Motion& with(const std::string& name, const Numbers& values) {
+    EXPECT_TRUE(problem_.set(problem_.parameter(name), values)) << name;
+    return *this;
+  }
+  CompiledProblem& problem() { return problem_; }
+  void expect(double optimum) { expect_bracket(problem_, optimum, 1e-9); }
+  void expect_infeasible(const std::string& reason) {
+    EXPECT_EQ(problem_.solve(), OnlineStatus::infeasible);
+    EXPECT_EQ(problem_.reason().substr(0, reason.size()), reason);
+  }
+
+ private:
+  static CompileOptions options(std::size_t joints) {
+    CompileOptions options;
+    options.parameters = {{"K", std::to_string(joints)}, {"p1", "zeros(K)"}};
+    return options;
+  }
+  CompiledProblem problem_;
+};
+
+TEST(StraightLineModels, KnownOptima) {
+  Motion motion("type3", 2);
+  motion.with("p1", {1, 1})
+      .with("vmax", {1, 10})
+      .with("amax", {50, 50})
+      .with("jmax", {1000, 20})
+      .expect(1.4472135955);
+  // Nothing to do.
+  motion.with("p1", {0, 0}).expect(0);
+  // A joint that does not move bounds nothing.
+  motion.with("p1", {1, 0})
+      .with("jmax", {1000, 1e-3})
+      .with("amax", {50, 1e-3})
+      .expect(1 + 2 * std::sqrt(1e-3));
+}
+
+// From w = 3 with limits of 1: to 1 in 0.5 s and 1 m, by an acceleration of 4; the rest of 3 m at 1, and to
+// rest.
+TEST(StraightLineModels, BrakeFromBeyondTheLimits) {
+  Motion motion("type1", 1);
+  motion.with("v0", {3}).with("vmax", {1}).with("amax", {4}).with("p1", {3}).expect(0.5 + 1.875 + 0.25);
+  // Past the target: 1.125 m to rest, and back 0.125 m.
+  motion.with("p1", {1}).expect(0.75 + 2 * std::sqrt(0.125 / 4));
+}
+
+TEST(StraightLineModels, LimitsHaveADirection) {
+  Motion motion("type2", 1);
+  motion.with("vmin", {-0.5}).with("vmax", {2}).with("amin", {-1}).with("amax", {4}).with("p1", {-1});
+  motion.expect(0.5 + (1 - 0.125 - 0.03125) / 0.5 + 0.125);
+  motion.with("v1", {-0.6}).expect_infeasible("target");
+  motion.with("v1", {-0.5}).expect(0.5 + (1 - 0.125) / 0.5);
+}
+
+TEST(StraightLineModels, TellWhatBreaksTheLine) {
+  Motion motion("type5", 3);
+  motion.with("p1", {1, 2, 0.5}).with("v0", {0.1, 0.2, 0.05}).with("a1", {0.1, 0.2, 0.05001});
+  motion.problem().solve();
+  EXPECT_EQ(motion.problem().status(), OnlineStatus::infeasible);
+  EXPECT_EQ(motion.problem().reason().substr(0, 4), "d_a1") << motion.problem().reason();
+}
+
+}  // namespace
+}  // namespace hcsp::lang

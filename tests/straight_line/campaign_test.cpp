@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: Apache-2.0
+// Random moves of every type with seven joints, one re-plan at a random instant of each: every answer is
+// straight, within limits and as fast as the oracle's, and none is declared infeasible that is not.
+// HCSP_FULL=1 runs 100,000 of each type.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/straight_line/collinear.h"
+#include "tests/straight_line/enumerator.h"
+#include "tests/straight_line/library.h"
+#include "tests/straight_line/random_move.h"
+
+namespace hcsp::straight_line {
+namespace {
+
+/// The optimum of the line and the states that an answer tells is within its bracket: of numbers that are as
+/// wrong as the enclosures are wide, if not of the middles.
+void expect_fastest(const Move& move, const Answer& answer) {
+  const Line line = line_of(move, answer);
+  const auto differs_by = [&](const Line& of) {
+    const std::optional<Profile> best = fastest_along(of, move);
+    if (!best) return 1e9;
+    const double T = best->duration().convert_to<double>();
+    return std::max({0.0, answer.bracket.lo - T, T - answer.bracket.hi});
+  };
+  double nearest = differs_by(line);
+  for (int i = 1; i < 243 && nearest > 1e-9; ++i) {  // each number a little more, or less, or the same
+    Line other = line;
+    int digits = i;
+    for (Number* x : {&other.from.w, &other.from.b, &other.to.q, &other.to.w, &other.to.b}) {
+      *x *= 1 + Number(digits % 3 - 1) * 1.5e-12;
+      digits /= 3;
+    }
+    nearest = std::min(nearest, differs_by(other));
+  }
+  EXPECT_LE(nearest, 1e-9) << "bracket [" << answer.bracket.lo << ", " << answer.bracket.hi << "]";
+}
+
+/// Joints that may move in one direction only cannot come back.
+bool is_out_of_reach(const KnownMove& known) {
+  const Limits l = limits_on(known.line.rho, known.move);
+  return known.move.type <= 5 && (l.wl == 0 || l.wh == 0) && !fastest_along(known.line, known.move);
+}
+
+void expect_right(const KnownMove& known, const Answer& answer, bool ask_oracle) {
+  const Move& move = known.move;
+  if (is_out_of_reach(known)) {
+    EXPECT_NE(answer.status, "solved");
+    return;
+  }
+  EXPECT_EQ(answer.status, "solved") << answer.reason;
+  if (answer.status != "solved") return;
+  EXPECT_THAT(faults(move, answer), ::testing::IsEmpty());
+  if (move.type <= 5 && ask_oracle) expect_fastest(move, answer);
+}
+
+class Campaign : public ::testing::TestWithParam<int> {
+ protected:
+  Library& library() {
+    static std::map<int, std::unique_ptr<Library>> all;
+    std::unique_ptr<Library>& one = all[GetParam()];
+    if (!one) one = std::make_unique<Library>(GetParam());
+    return *one;
+  }
+
+  void replan(Draw& draw, const KnownMove& known, const Answer& answer, bool ask_oracle) {
+    const double time = draw.in(0, answer.T.lo);
+    KnownMove on_line = known;
+    for (std::size_t k = 0; k < answer.rho.size(); ++k) on_line.line.rho[k] = answer.rho[k].middle();
+    on_line.move.p0 = library().positions_at(time);
+    KnownMove next = replanned(draw, on_line, {0, library().state_at(time).w, library().state_at(time).b});
+    SCOPED_TRACE("after a re-plan: " + next.move.text());
+    expect_right(next, library().solve(next.move), ask_oracle);
+  }
+};
+
+TEST_P(Campaign, EveryAnswerIsRight) {
+  int number = 0;
+  run_cases(40, 100000, [&](Draw& draw) {
+    const Kind kind = random_kind(draw);
+    KnownMove known = random_move(draw, GetParam(), kind);
+    if (draw.chance(0.3)) known.move = shaken(draw, known.move, draw.in(0, 0.5) * known.move.tol);
+    SCOPED_TRACE(to_string(kind) + ": " + known.move.text());
+    const bool ask_oracle = ++number <= 1000;
+    const Answer answer = library().solve(known.move);
+    expect_right(known, answer, ask_oracle);
+    if (answer.status == "solved") replan(draw, known, answer, ask_oracle);
+  });
+}
+
+TEST_P(Campaign, CrookedIsRefuted) {
+  run_cases(40, 100000, [&](Draw& draw) {
+    const KnownMove known = random_move(draw, GetParam(), random_kind(draw));
+    const Move move = crooked(draw, known.move);
+    SCOPED_TRACE(move.text());
+    const std::optional<Refutation> why = refutation(move);
+    const Answer answer = library().solve(move);
+    if (why) {
+      EXPECT_EQ(answer.status, "infeasible") << why->m << ' ' << why->n << ' ' << why->k << ' ' << why->l;
+    } else if (answer.status != "undecided") {  // three vectors or more may, or may not, be on a line
+      EXPECT_EQ(answer.status, "solved") << answer.reason;
+      EXPECT_THAT(faults(move, answer), ::testing::IsEmpty());
+    }
+  });
+}
+
+INSTANTIATE_TEST_SUITE_P(Types, Campaign, ::testing::Values(1, 2, 3, 4, 5));
+
+}  // namespace
+}  // namespace hcsp::straight_line

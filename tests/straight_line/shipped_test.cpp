@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: Apache-2.0
+// The shipped models on what is known of them: optima from the literature, other numbers of joints, input
+// that makes no sense, and of types VI to IX the bound that type V gives.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/straight_line/enumerator.h"
+#include "tests/straight_line/library.h"
+#include "tests/straight_line/random_move.h"
+
+namespace hcsp::straight_line {
+namespace {
+
+Vector negative(Vector values) {
+  for (double& x : values) x = -x;
+  return values;
+}
+
+/// From rest at the origin to rest.
+Move from_rest(int type, const Vector& p1, const Vector& vmax, const Vector& amax, const Vector& jmax) {
+  const Vector zero(p1.size(), 0);
+  Move move;
+  move.type = type;
+  for (Vector* values : {&move.p0, &move.v0, &move.a0, &move.j0, &move.v1, &move.a1, &move.j1})
+    *values = zero;
+  move.p1 = p1;
+  move.vmax = vmax;
+  move.amax = amax;
+  move.jmax = jmax;
+  move.vmin = negative(vmax);
+  move.amin = negative(amax);
+  move.jmin = negative(jmax);
+  move.dmax = Vector(p1.size(), 1e3);
+  return move;
+}
+
+Move first_case(int type) { return from_rest(type, {1, 2, 0.5}, {1, 1, 1}, {2, 2, 2}, {20, 20, 20}); }
+
+void expect_optimum(Library& library, const Move& move, double T) {
+  const Answer answer = library.solve(move);
+  ASSERT_EQ(answer.status, "solved") << answer.reason;
+  EXPECT_LE(answer.bracket.lo, T);
+  EXPECT_GE(answer.bracket.hi, T);
+  EXPECT_LE(answer.bracket.hi - answer.bracket.lo, 1e-9);
+  EXPECT_THAT(faults(move, answer), ::testing::IsEmpty());
+}
+
+TEST(Shipped, KnownOptima) {
+  for (int type = 1; type <= 5; ++type) {
+    SCOPED_TRACE(type);
+    Library three(type, 3);
+    expect_optimum(three, first_case(type), type <= 2 ? 2.5 : 2.6);
+  }
+  Library two(3, 2);  // V = 1, J = 20; A is not reached
+  expect_optimum(two, from_rest(3, {1, 1}, {1, 10}, {50, 50}, {1000, 20}), 1 + std::sqrt(0.2));
+}
+
+// One joint or many; what the others do is a multiple.
+TEST(Shipped, AnyNumberOfJoints) {
+  for (const std::size_t joints : {1U, 9U}) {
+    Library library(4, joints);
+    run_cases(20, 1000, [&](Draw& draw) {
+      const KnownMove known = random_move(draw, 4, Kind::moving, joints);
+      SCOPED_TRACE(known.move.text());
+      const Answer answer = library.solve(known.move);
+      ASSERT_EQ(answer.status, "solved") << answer.reason;
+      EXPECT_THAT(faults(known.move, answer), ::testing::IsEmpty());
+    });
+  }
+}
+
+TEST(Shipped, InputThatMakesNoSense) {
+  for (const int type : {1, 5}) {
+    Library library(type, 3);
+    CompiledProblem& problem = library.compiled();
+    const auto status_with = [&](const char* name, const Vector& values) {
+      const Answer good = library.solve(first_case(type));
+      EXPECT_EQ(good.status, "solved");
+      const bool fits = problem.set(problem.parameter(name), values);
+      const OnlineStatus status = problem.solve();
+      EXPECT_EQ(fits, status != OnlineStatus::invalid) << name;
+      EXPECT_EQ(problem.reason().empty(), status == OnlineStatus::solved) << name;
+      return status;
+    };
+    EXPECT_EQ(status_with("p1", {1, NAN, 0.5}), OnlineStatus::invalid);
+    EXPECT_EQ(status_with("v0", {0, 0, INFINITY}), OnlineStatus::invalid);
+    EXPECT_EQ(status_with("p0", {0, 0}), OnlineStatus::invalid);
+    EXPECT_EQ(status_with("p0", {0, 0, 0, 0}), OnlineStatus::invalid);
+    EXPECT_EQ(status_with("vmax", {1, -1, 1}), OnlineStatus::infeasible);
+    EXPECT_EQ(status_with("amax", {2, 0, 2}), OnlineStatus::infeasible);
+    EXPECT_EQ(status_with("amin", {-2, 1, -2}), OnlineStatus::infeasible);
+    EXPECT_EQ(status_with("tol", {-1}), OnlineStatus::infeasible);
+    EXPECT_EQ(status_with("v0", {0.5, 0.5, 0.5}), OnlineStatus::infeasible);  // not along p1 - p0
+    EXPECT_EQ(library.solve(first_case(type)).status, "solved");
+    if (type != 5) continue;
+    EXPECT_EQ(status_with("v1", {1, 2, 0.5}), OnlineStatus::infeasible);  // beyond the limits
+    EXPECT_EQ(status_with("a1", {1, 2, 0.5}), OnlineStatus::solved);
+  }
+}
+
+// A motion of type VI to IX is one of type V: it is not faster.
+TEST(Shipped, SnapCostsTime) {
+  for (const int type : full() ? std::vector<int>{6, 7, 8, 9} : std::vector<int>{9}) {
+    Library library(type, 7);
+    run_cases(3, 1000, [&](Draw& draw) {
+      KnownMove known = random_move(draw, type, Kind::at_rest);
+      SCOPED_TRACE(known.move.text());
+      const Answer answer = library.solve(known.move);
+      ASSERT_EQ(answer.status, "solved") << answer.reason;
+      EXPECT_THAT(faults(known.move, answer), ::testing::IsEmpty());
+      known.move.type = 5;
+      const double least = fastest_along(known.line, known.move)->duration().convert_to<double>();
+      EXPECT_GE(answer.T.hi, least - 1e-9);
+    });
+  }
+}
+
+}  // namespace
+}  // namespace hcsp::straight_line
