@@ -90,15 +90,12 @@ bool Contraction::evaluate(Code::Stage last) {
   return objective.is_empty() || lower_ > best_ ? out(kBound) : true;
 }
 
+// Afterwards registers hold what solutions can have: derivatives need what the box has, again.
 bool Contraction::contract_by_hc4() {
   if (!machine_.backward(*code_, best_)) return out(machine_.refuted_by());
-  bool changed = false;
-  for_each_active([&](std::size_t v) {
-    const Interval& now = machine_.value(code_->first() + static_cast<Register>(v));
-    changed = changed || !(now == box_[v]);
-    box_[v] = now;
-  });
-  return !changed || evaluate(Code::main);
+  for_each_active(
+      [&](std::size_t v) { box_[v] = machine_.value(code_->first() + static_cast<Register>(v)); });
+  return evaluate(Code::main);
 }
 
 // Slopes over the box, then values at its centre.
