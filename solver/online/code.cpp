@@ -167,12 +167,12 @@ void Code::add_chain_rule(Dag& dag, Prefix& prefix, Facts& facts, const Instruct
     case Op::max:
       rule.kind = at.op == Op::min ? Kind::min : Kind::max;
       rule.is_first_above = at.op == Op::max;
-      find_surface(dag, fold(dag, Op::sub, dag[node].operands), rule);
+      find_surface(dag, {{dag[node].operands[0], 1}, {dag[node].operands[1], -1}}, rule);
       break;
     case Op::abs:
       rule.kind = Kind::abs;
       rule.is_first_above = true;
-      find_surface(dag, dag[node].operands[0], rule);
+      find_surface(dag, {{dag[node].operands[0], 1}}, rule);
       break;
     case Op::if_then_else:
       rule.kind = Kind::choice;
@@ -192,18 +192,29 @@ void Code::add_chain_rule(Dag& dag, Prefix& prefix, Facts& facts, const Instruct
   chain.push_back(rule);
 }
 
-// An expression and its negation have one surface.
-void Code::find_surface(Dag& dag, NodeId difference, ChainRule& rule) {
-  const auto turn = [&](NodeId to) {
-    difference = to;
-    rule.is_first_above = !rule.is_first_above;
-  };
-  while (dag[difference].op == Op::neg) turn(dag[difference].operands[0]);
-  if (dag[difference].op == Op::sub) {
-    const NodeId turned = fold(dag, Op::sub, {dag[difference].operands[1], dag[difference].operands[0], 0});
-    if (turned < difference) turn(turned);
+// An expression and its negation have one surface: they are told apart as sums of terms.
+void Code::find_surface(const Dag& dag, std::initializer_list<std::pair<NodeId, int>> difference,
+                        ChainRule& rule) {
+  std::map<NodeId, int> terms;
+  std::vector<std::pair<NodeId, int>> open = difference;
+  while (!open.empty()) {
+    const auto [id, sign] = open.back();
+    open.pop_back();
+    const DagNode& node = dag[id];
+    if (node.op == Op::add || node.op == Op::sub) {
+      open.emplace_back(node.operands[0], sign);
+      open.emplace_back(node.operands[1], node.op == Op::add ? sign : -sign);
+    } else if (node.op == Op::neg) {
+      open.emplace_back(node.operands[0], -sign);
+    } else if (!is_number(dag, id, 0.0) && (terms[id] += sign) == 0) {
+      terms.erase(id);
+    }
   }
-  const auto [place, is_new] = surface_of_.try_emplace(difference, surfaces);
+  if (!terms.empty() && terms.begin()->second < 0) {
+    for (auto& [id, count] : terms) count = -count;
+    rule.is_first_above = !rule.is_first_above;
+  }
+  const auto [place, is_new] = surface_of_.try_emplace({terms.begin(), terms.end()}, surfaces);
   if (is_new) ++surfaces;
   rule.surface = place->second;
 }

@@ -125,7 +125,8 @@ class Code {
   Register place(Dag& dag, Prefix& prefix, Facts& facts, NodeId node, std::vector<Instruction>& to);
   void add_chain(Dag& dag, Prefix& prefix, Facts& facts);
   void add_chain_rule(Dag& dag, Prefix& prefix, Facts& facts, const Instruction& at, NodeId node);
-  void find_surface(Dag& dag, NodeId difference, ChainRule& rule);
+  void find_surface(const Dag& dag, std::initializer_list<std::pair<NodeId, int>> difference,
+                    ChainRule& rule);
   void find_real_path();
   void end_stage(Stage stage);
 
@@ -133,7 +134,7 @@ class Code {
   Register first_ = 0, registers_;
   std::map<NodeId, Register> places_;
   std::vector<NodeId> nodes_;  // by instruction of `values`
-  std::map<NodeId, std::uint32_t> surface_of_;
+  std::map<std::vector<std::pair<NodeId, int>>, std::uint32_t> surface_of_;
 };
 
 }  // namespace hcsp::online

@@ -29,6 +29,7 @@ Contraction::Contraction(Machine& machine, std::size_t most_tests, std::size_t m
       row_(most_core),
       has_form_(most_tests + 1),
       noise_(most_core),
+      ranges_(most_tests),
       multipliers_(most_tests),
       residual_(most_core),
       pivoting_(most_tests, most_core),
@@ -101,7 +102,7 @@ bool Contraction::contract_by_hc4() {
 // Slopes over the box, then values at its centre.
 void Contraction::evaluate_forms() {
   const std::size_t core = code_->core(), tests = code_->ends[Code::main].tests;
-  machine_.differentiate_main(*code_, active_);
+  machine_.differentiate(*code_, active_, Code::main);
   const auto keep = [&](std::size_t i, Register reg, bool is_truth) {
     has_form_[i] = !is_truth && machine_.is_lipschitz(reg) ? 1 : 0;
     if (has_form_[i] == 0) return;
@@ -110,12 +111,13 @@ void Contraction::evaluate_forms() {
   };
   for (std::size_t i = 0; i < tests; ++i) keep(i, code_->tests[i].reg, code_->tests[i].is_truth);
   if (!code_->wanted.empty()) keep(tests, code_->wanted[0], false);
+  for (std::size_t i = 0; i < tests; ++i) ranges_[i] = width(machine_.value(code_->tests[i].reg));
   std::copy(box_.begin(), box_.end(), center_.begin());
   for_each_active([&](std::size_t v) {
     const bool is_near = !near_.empty() && box_[v].contains(near_[v]);
     center_[v] = is_near ? Interval::raw(near_[v], near_[v]) : middle(box_[v]);
   });
-  machine_.evaluate_main(*code_, {center_.data(), core});
+  machine_.evaluate(*code_, {center_.data(), core}, Code::main);
   for (std::size_t i = 0; i < tests; ++i) form_values_[i] = machine_.value(code_->tests[i].reg);
   if (!code_->wanted.empty()) form_values_[tests] = machine_.value(code_->wanted[0]);
   // A point outside the domain of definition has no value to start from.
@@ -186,7 +188,7 @@ bool Contraction::choose_square() {
     });
     pivoting_.right(k) = 0.0;
   }
-  if (!pivoting_.eliminate() || pivoting_.rank() < active_count_) return false;
+  if (!pivoting_.eliminate(1e-15) || pivoting_.rank() < active_count_) return false;
   const std::size_t n = active_count_;
   for (std::size_t k = 0; k < n; ++k) {
     for (std::size_t l = 0; l < n; ++l) {
@@ -297,9 +299,9 @@ bool Contraction::is_all_noise(double factor) const {
     if (!code_->tests[i].is_equation) continue;
     const Interval& slope = form_slopes_[i * code_->core() + v];
     const double steepest = std::max(-slope.lo(), slope.hi());
-    const bool is_noise =
-        has_form_[i] != 0 && steepest * width(before_[v]) <= factor * width(form_values_[i]);
-    if (!is_noise) return false;
+    const double noise = factor * width(form_values_[i]);
+    const bool is_flat = has_form_[i] != 0 && steepest * width(before_[v]) <= noise;
+    if (!is_flat && !(ranges_[i] <= noise)) return false;
     has_equation = true;
   }
   return has_equation;

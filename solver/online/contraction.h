@@ -62,6 +62,7 @@ class Contraction {
   std::vector<Interval> before_, center_, form_slopes_, form_values_, row_;
   std::vector<std::uint8_t> has_form_;          // by test, and one more for the objective
   std::vector<double> noise_;                   // by unknown: how narrow an equation could make it
+  std::vector<double> ranges_;                  // by test: the width of its values on the box of the forms
   std::vector<double> multipliers_, residual_;  // by test; by unknown
   Pivoting pivoting_;
   std::vector<std::uint32_t> equations_;  // tests with forms

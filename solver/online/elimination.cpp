@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "solver/expression/operators.h"
+#include "solver/online/play.h"
 
 namespace hcsp::online {
 
@@ -88,7 +89,7 @@ class Eliminator {
     });
     for (const Input& input : data_) {
       const Interval play = join(first_.range(low.at(input)), first_.range(high.at(input)));
-      if (play.is_empty() || !play.is_bounded() || play.width() > kThin * play.mag()) continue;
+      if (play.is_empty() || !is_thin(play)) continue;
       const NodeId place = dag_.constant(Interval(0.0, 1.0), kPlaces + input.variable);
       const NodeId width = fold(dag_, Op::sub, {high.at(input), low.at(input), 0});
       const NodeId value = fold(dag_, Op::add, {low.at(input), fold(dag_, Op::mul, {place, width, 0}), 0});
@@ -301,7 +302,6 @@ class Eliminator {
   }
 
   Dag& dag_;
-  static constexpr double kThin = 1e-9;
   static constexpr std::uint64_t kPlaces = std::uint64_t{1} << 40;  // origins of constants of no model
 
   Facts &facts_, &first_;

@@ -34,26 +34,27 @@ void Machine::load_real(const Code& code) {
 }
 
 // Of the branch that is taken; of both, and with a jump, where that is open.
-std::uint8_t Machine::flags_of_choice(const Instruction& at) const {
-  if (operators::is_true(values_[at.a])) return flags_[at.b];
-  if (operators::is_false(values_[at.a])) return flags_[at.c];
-  return static_cast<std::uint8_t>(flags_[at.b] & flags_[at.c] & kDefined);
+std::uint8_t Machine::flags_of_choice(const Instruction& at, const Interval* values,
+                                      const std::uint8_t* flags) {
+  if (operators::is_true(values[at.a])) return flags[at.b];
+  if (operators::is_false(values[at.a])) return flags[at.c];
+  return static_cast<std::uint8_t>(flags[at.b] & flags[at.c] & kDefined);
 }
 
 template <Op kOp, class Operator>
-void Machine::run_one(const Instruction& at) {
-  const Interval &a = values_[at.a], &b = values_[at.b], &c = values_[at.c];
+void Machine::run_one(const Instruction& at, Interval* values, std::uint8_t* all_flags) {
+  const Interval &a = values[at.a], &b = values[at.b], &c = values[at.c];
   const Interval y = Operator::forward(a, b, c);
-  auto flags = static_cast<std::uint8_t>(flags_[at.a] & flags_[at.b]);
+  auto flags = static_cast<std::uint8_t>(all_flags[at.a] & all_flags[at.b]);
   if constexpr (is_relation(kOp)) {
     // False where a term is undefined.
-    values_[at.y] = (flags & kDefined) == 0 && operators::is_true(y) ? kEither : y;
-    flags_[at.y] = kDefined;
+    values[at.y] = (flags & kDefined) == 0 && operators::is_true(y) ? kEither : y;
+    all_flags[at.y] = kDefined;
     return;
   } else if constexpr (is_boolean(kOp)) {
     flags = kDefined;
   } else if constexpr (kOp == Op::if_then_else) {
-    flags = flags_of_choice(at);
+    flags = flags_of_choice(at, values, all_flags);
   } else if constexpr (is_step(kOp)) {
     if (!y.is_point()) flags &= kDefined;
   } else if constexpr (kOp == Op::sqrt) {
@@ -63,17 +64,21 @@ void Machine::run_one(const Instruction& at) {
     if (!Operator::defined(a, b, c)) flags = 0;
     if (!operators::is_continuous<Operator>(a, b)) flags &= kDefined;
   }
-  values_[at.y] = y;
-  flags_[at.y] = flags;
+  values[at.y] = y;
+  all_flags[at.y] = flags;
 }
 
 // One dispatch for a run of instructions of one operator.
 void Machine::run(std::span<const Instruction> code) {
+  Interval* const values = values_.data();
+  std::uint8_t* const flags = flags_.data();
   for (const Instruction *at = code.data(), *end = at + code.size(); at != end;) {
     with_operator(at->op, [&](auto known) {
+      const Instruction* next = at;
       do {
-        run_one<decltype(known)::op, typename decltype(known)::type>(*at++);
-      } while (at != end && at->op == decltype(known)::op);
+        run_one<decltype(known)::op, typename decltype(known)::type>(*next++, values, flags);
+      } while (next != end && next->op == decltype(known)::op);
+      at = next;
     });
   }
 }
@@ -83,14 +88,9 @@ void Machine::load(const Code& code, std::span<const Interval> box) {
   std::fill_n(flags_.begin() + code.first(), box.size(), kDefined | kLipschitz);
 }
 
-void Machine::evaluate(const Code& code, std::span<const Interval> box) {
+void Machine::evaluate(const Code& code, std::span<const Interval> box, Code::Stage last) {
   load(code, box);
-  run(code.values);
-}
-
-void Machine::evaluate_main(const Code& code, std::span<const Interval> box) {
-  load(code, box);
-  run(std::span(code.values).first(code.ends[Code::main].values));
+  run(std::span(code.values).first(code.ends[last].values));
 }
 
 bool Machine::evaluate_while_possible(const Code& code, std::span<const Interval> box, Code::Stage last) {
@@ -165,9 +165,10 @@ void Machine::apply(const ChainRule& rule) {
   }
 }
 
-bool Machine::find_open_surfaces(const Code& code, std::span<std::uint32_t> found, std::size_t& count) const {
+bool Machine::find_open_surfaces(const Code& code, Code::Stage last, std::span<std::uint32_t> found,
+                                 std::size_t& count) const {
   count = 0;
-  for (const ChainRule& rule : code.chain) {
+  for (const ChainRule& rule : std::span(code.chain).first(code.ends[last].chain)) {
     using Kind = ChainRule::Kind;
     const bool is_kink = rule.kind == Kind::min || rule.kind == Kind::max;
     if (!is_kink && rule.kind != Kind::abs) continue;
@@ -181,8 +182,8 @@ bool Machine::find_open_surfaces(const Code& code, std::span<std::uint32_t> foun
   return true;
 }
 
-void Machine::differentiate(const Code& code, std::uint64_t active, std::size_t slopes, std::size_t rules) {
-  run(std::span(code.slopes).first(slopes));
+void Machine::differentiate(const Code& code, std::uint64_t active, Code::Stage last) {
+  run(std::span(code.slopes).first(code.ends[last].slopes));
   columns_ = static_cast<std::size_t>(__builtin_popcountll(active));
   std::fill_n(slopes_.begin(), (code.core() + 1) * columns_, Interval::raw(0.0, 0.0));
   std::size_t k = 0;
@@ -190,7 +191,7 @@ void Machine::differentiate(const Code& code, std::uint64_t active, std::size_t 
     const auto v = static_cast<std::size_t>(__builtin_ctzll(left));
     slopes_[(v + 1) * columns_ + k] = Interval::raw(1.0, 1.0);
   }
-  for_each_rule(std::span(code.chain).first(rules),
+  for_each_rule(std::span(code.chain).first(code.ends[last].chain),
                 [&](auto kind, const ChainRule& rule) { apply<kind()>(rule); });
 }
 

@@ -41,27 +41,20 @@ class Machine {
   /// Evaluates code of the prefix.
   void evaluate(std::span<const Instruction> givens) { run(givens); }
 
-  /// Evaluates the tests and objectives of a view on a box of its core.
-  void evaluate(const Code& code, std::span<const Interval> box);
-  /// The same as far as the main stage.
-  void evaluate_main(const Code& code, std::span<const Interval> box);
+  /// Evaluates the tests and objectives of a view on a box of its core, as far as a stage.
+  void evaluate(const Code& code, std::span<const Interval> box, Code::Stage last = Code::all);
   /// The same as far as a stage, or as one with a test that holds nowhere in the box: then false, and
   /// refuted_by() is its name.
   bool evaluate_while_possible(const Code& code, std::span<const Interval> box, Code::Stage last);
   /// After evaluate(): what definitions and further expressions are.
   void evaluate_rest(const Code& code) { run(code.rest); }
-  /// After evaluate() or evaluate_main(): derivatives of what the main stage needs, with regard to the
-  /// unknowns of a mask; those of undecided kinks are hulls.
-  void differentiate_main(const Code& code, std::uint64_t active) {
-    differentiate(code, active, code.ends[Code::main].slopes, code.ends[Code::main].chain);
-  }
-  void differentiate(const Code& code, std::uint64_t active) {
-    differentiate(code, active, code.slopes.size(), code.chain.size());
-  }
-
+  /// After evaluate(): derivatives of what a stage needs, with regard to the unknowns of a mask; those of
+  /// undecided kinks are hulls.
+  void differentiate(const Code& code, std::uint64_t active, Code::Stage last = Code::all);
   /// After evaluate(): the surfaces of kinks that are within the box, as many as there is room for; false
   /// where they are more.
-  bool find_open_surfaces(const Code& code, std::span<std::uint32_t> found, std::size_t& count) const;
+  bool find_open_surfaces(const Code& code, Code::Stage last, std::span<std::uint32_t> found,
+                          std::size_t& count) const;
   /// From now on derivatives at kinks with this surface are those of a side of it, or of both.
   enum class Side : std::uint8_t { both, below, above };
   void set_side(std::uint32_t surface, Side side) { sides_[surface] = side; }
@@ -93,11 +86,11 @@ class Machine {
   /// What a code reads of the prefix, in floating point.
   void load_real(const Code& code);
   /// The same expressions in floating point, at a point; derivatives, where a kink has the one of a side.
-  void evaluate_real(const Code& code, std::span<const double> point);
-  void evaluate_real_rest(const Code& code) { run_real(code.rest); }
-  void differentiate_real(const Code& code);
+  void evaluate_real(const Code& code, std::span<const double> point, Code::Stage last);
+  void differentiate_real(const Code& code, std::uint64_t active, Code::Stage last);
   [[nodiscard]] double real(Register reg) const { return reals_[reg]; }
-  [[nodiscard]] double real_slope(Register reg, std::size_t v) const { return real_slopes_of(reg)[v]; }
+  /// After differentiate_real(), with regard to the k-th of the unknowns of its mask.
+  [[nodiscard]] double real_slope(Register reg, std::size_t k) const { return real_slopes_of(reg)[k]; }
 
  private:
   static constexpr std::uint8_t kDefined = 1, kLipschitz = 2;
@@ -110,11 +103,11 @@ class Machine {
     return &real_slopes_[reg < first_ ? 0 : (reg - first_ + 1) * real_columns_];
   }
   void load(const Code& code, std::span<const Interval> box);
-  void differentiate(const Code& code, std::uint64_t active, std::size_t slopes, std::size_t rules);
   void run(std::span<const Instruction> code);
   template <Op kOp, class Operator>
-  void run_one(const Instruction& at);
-  [[nodiscard]] std::uint8_t flags_of_choice(const Instruction& at) const;
+  static void run_one(const Instruction& at, Interval* values, std::uint8_t* all_flags);
+  static std::uint8_t flags_of_choice(const Instruction& at, const Interval* values,
+                                      const std::uint8_t* flags);
   template <ChainRule::Kind kKind>
   void apply(const ChainRule& rule);
   template <Op kOp, class Operator>

@@ -35,20 +35,23 @@ double value_of(double a, double b, double c) {
 }  // namespace
 
 void Machine::run_real(std::span<const Instruction> code) {
+  double* const reals = reals_.data();
   for (const Instruction *at = code.data(), *end = at + code.size(); at != end;) {
     with_operator(at->op, [&](auto known) {
       using Known = decltype(known);
+      const Instruction* next = at;
       do {
-        reals_[at->y] =
-            value_of<Known::op, typename Known::type>(reals_[at->a], reals_[at->b], reals_[at->c]);
-      } while (++at != end && at->op == Known::op);
+        reals[next->y] =
+            value_of<Known::op, typename Known::type>(reals[next->a], reals[next->b], reals[next->c]);
+      } while (++next != end && next->op == Known::op);
+      at = next;
     });
   }
 }
 
-void Machine::evaluate_real(const Code& code, std::span<const double> point) {
+void Machine::evaluate_real(const Code& code, std::span<const double> point, Code::Stage last) {
   std::copy(point.begin(), point.end(), reals_.begin() + code.first());
-  run_real(code.values);
+  run_real(std::span(code.values).first(code.ends[last].values));
 }
 
 template <ChainRule::Kind kKind>
@@ -90,12 +93,17 @@ void Machine::apply_real(const ChainRule& rule) {
   }
 }
 
-void Machine::differentiate_real(const Code& code) {
-  run_real(code.slopes);
-  real_columns_ = code.core();
+void Machine::differentiate_real(const Code& code, std::uint64_t active, Code::Stage last) {
+  run_real(std::span(code.slopes).first(code.ends[last].slopes));
+  real_columns_ = static_cast<std::size_t>(__builtin_popcountll(active));
   std::fill_n(real_slopes_.begin(), (code.core() + 1) * real_columns_, 0.0);
-  for (std::size_t v = 0; v < code.core(); ++v) real_slopes_[(v + 1) * real_columns_ + v] = 1.0;
-  for_each_rule(code.chain, [&](auto kind, const ChainRule& rule) { apply_real<kind()>(rule); });
+  std::size_t k = 0;
+  for (std::uint64_t left = active; left != 0; left &= left - 1, ++k) {
+    const auto v = static_cast<std::size_t>(__builtin_ctzll(left));
+    real_slopes_[(v + 1) * real_columns_ + k] = 1.0;
+  }
+  for_each_rule(std::span(code.chain).first(code.ends[last].chain),
+                [&](auto kind, const ChainRule& rule) { apply_real<kind()>(rule); });
 }
 
 }  // namespace hcsp::online

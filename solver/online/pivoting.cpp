@@ -35,9 +35,8 @@ bool Pivoting::scale_rows() {
   return true;
 }
 
-bool Pivoting::find_pivot(std::size_t k) {
-  constexpr double kNoise = 1e-15;
-  double most = kNoise;
+bool Pivoting::find_pivot(std::size_t k, double noise) {
+  double most = noise;
   std::size_t best_row = rows_, best_column = columns_;
   for (std::size_t i = k; i < rows_; ++i) {
     for (std::size_t j = k; j < columns_; ++j) {
@@ -55,11 +54,11 @@ bool Pivoting::find_pivot(std::size_t k) {
   return true;
 }
 
-bool Pivoting::eliminate() {
+bool Pivoting::eliminate(double noise) {
   if (!scale_rows()) return false;
   std::iota(row_of_.begin(), row_of_.begin() + static_cast<std::ptrdiff_t>(rows_), 0U);
   std::iota(column_of_.begin(), column_of_.end(), 0U);
-  for (rank_ = 0; rank_ < std::min(rows_, columns_) && find_pivot(rank_); ++rank_) {
+  for (rank_ = 0; rank_ < std::min(rows_, columns_) && find_pivot(rank_, noise); ++rank_) {
     const std::uint32_t pivot = row_of_[rank_], column = column_of_[rank_];
     for (std::size_t i = rank_ + 1; i < rows_; ++i) {
       const std::uint32_t row = row_of_[i];

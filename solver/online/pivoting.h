@@ -19,8 +19,9 @@ class Pivoting {
   double& at(std::size_t row, std::size_t column) { return matrix_[row * columns_ + column]; }
   double& right(std::size_t row) { return right_[row]; }
 
-  /// Eliminates; false where a number is not finite. Rows are scaled to their greatest entry first.
-  bool eliminate();
+  /// Eliminates as long as there are pivots above `noise`; false where a number is not finite. Rows are
+  /// scaled to their greatest entry first.
+  bool eliminate(double noise);
   /// How many rows and columns were pivoted on, and which.
   [[nodiscard]] std::size_t rank() const { return rank_; }
   [[nodiscard]] std::uint32_t row(std::size_t k) const { return row_of_[k]; }
@@ -30,7 +31,7 @@ class Pivoting {
 
  private:
   bool scale_rows();
-  bool find_pivot(std::size_t k);
+  bool find_pivot(std::size_t k, double noise);
   void substitute_back();
 
   std::size_t columns_, rows_ = 0, rank_ = 0;

@@ -5,8 +5,18 @@
 #include <cmath>
 
 #include "domains/interval/kernel.h"
+#include "solver/online/play.h"
 
 namespace hcsp::online {
+
+namespace {
+
+// Which of the unknowns of a mask one is.
+std::size_t place(std::uint64_t mask, std::uint32_t v) {
+  return static_cast<std::size_t>(__builtin_popcountll(mask & ((std::uint64_t{1} << v) - 1)));
+}
+
+}  // namespace
 
 Proof::Proof(Machine& machine, std::size_t most_tests, std::size_t most_core)
     : machine_(machine),
@@ -32,6 +42,11 @@ bool Proof::find(const Code& code, std::span<const double> near, std::span<const
   code_ = &code;
   domains_ = domains;
   size_ = code.core();
+  free_ = all_ = 0;
+  for (std::size_t v = 0; v < size_; ++v) {
+    all_ |= std::uint64_t{1} << v;
+    if (!is_thin(domains[v])) free_ |= std::uint64_t{1} << v;
+  }
   std::copy(near.begin(), near.end(), point_.begin());
   std::fill_n(is_active_.begin(), code.tests.size(), std::uint8_t{0});
   for (int round = 0; round < kMostRounds; ++round) {
@@ -64,17 +79,26 @@ void Proof::collect_rows() {
     const Test& test = code_->tests[i];
     if (test.is_equation || is_active_[i] != 0) rows_[row_count_++] = i;
   }
+  const bool is_main = row_count_ == 0 || rows_[row_count_ - 1] < code_->ends[Code::main].tests;
+  stage_ = is_main ? Code::main : Code::all;
 }
 
-bool Proof::fill_matrix() {
-  machine_.differentiate_real(*code_);
+// With regard to the unknowns of a mask; false where a number is not finite.
+bool Proof::fill_matrix(std::uint64_t active) {
+  machine_.differentiate_real(*code_, active, stage_);
   pivoting_.start(row_count_);
   for (std::size_t k = 0; k < row_count_; ++k) {
     const Register reg = code_->tests[rows_[k]].reg;
-    for (std::size_t v = 0; v < size_; ++v) pivoting_.at(k, v) = machine_.real_slope(reg, v) * room(v);
+    std::size_t column = 0;
+    for (std::uint64_t left = active; left != 0; left &= left - 1, ++column) {
+      const auto v = static_cast<std::size_t>(__builtin_ctzll(left));
+      pivoting_.at(k, v) = machine_.real_slope(reg, column) * room(v);
+    }
     pivoting_.right(k) = -machine_.real(reg);
   }
-  return pivoting_.eliminate();
+  active_ = active;
+  constexpr double kNoise = 1e-15, kPlay = 1e-11;  // what data move is less than that of the others
+  return pivoting_.eliminate(active == all_ ? kNoise : kPlay);
 }
 
 // Newton's method in floating point. Where a step is small the next would be far smaller.
@@ -84,10 +108,12 @@ bool Proof::correct() {
   collect_rows();
   for (int step = 0; step < kMostSteps; ++step) {
     keep_within_domains();
-    machine_.evaluate_real(*code_, {point_.data(), size_});
+    machine_.evaluate_real(*code_, {point_.data(), size_}, stage_);
     is_exact_ = std::all_of(rows_.begin(), rows_.begin() + static_cast<std::ptrdiff_t>(row_count_),
                             [&](std::uint32_t i) { return machine_.real(code_->tests[i].reg) == 0.0; });
-    if (!fill_matrix()) return false;
+    // Data are solved for only where the others do not do.
+    if (!fill_matrix(free_)) return false;
+    if (pivoting_.rank() < row_count_ && !fill_matrix(all_)) return false;
     double most = 0.0;
     for (std::size_t k = 0; k < pivoting_.rank(); ++k) {
       const std::uint32_t v = pivoting_.column(k);
@@ -123,9 +149,10 @@ bool Proof::solve_exactly() {
   if (rank_ == 0) return true;
   for (std::size_t k = 0; k < rank_; ++k) {
     for (std::size_t l = 0; l < rank_; ++l)
-      jacobian_[k * rank_ + l] = machine_.real_slope(code_->tests[solved_rows_[k]].reg, columns_[l]);
+      jacobian_[k * rank_ + l] =
+          machine_.real_slope(code_->tests[solved_rows_[k]].reg, place(active_, columns_[l]));
   }
-  machine_.evaluate(*code_, {box_.data(), size_});
+  machine_.evaluate(*code_, {box_.data(), size_}, stage_);
   for (std::size_t k = 0; k < rank_; ++k) residual_[k] = machine_.value(code_->tests[solved_rows_[k]].reg);
   std::fill_n(radius_.begin(), rank_, 0.0);
   if (!precondition()) return false;
@@ -169,20 +196,21 @@ bool Proof::expand() {
     reach_[v] = Interval::raw(up::sub_down(point_[v], radius_[k]), point_[v] + radius_[k]);
     active |= std::uint64_t{1} << v;
   }
-  machine_.evaluate(*code_, {reach_.data(), size_});
+  machine_.evaluate(*code_, {reach_.data(), size_}, stage_);
   for (std::size_t k = 0; k < rank_; ++k) {
     const Register reg = code_->tests[solved_rows_[k]].reg;
     if (!machine_.is_defined(reg) || !machine_.is_lipschitz(reg)) return false;
   }
   std::array<std::uint32_t, kMostSurfaces> surfaces{};
   std::size_t open = 0;
-  if (!machine_.find_open_surfaces(*code_, surfaces, open)) open = 0;  // the hull of each kink by itself
+  if (!machine_.find_open_surfaces(*code_, stage_, surfaces, open))
+    open = 0;  // the hull of each kink by itself
   is_kinked_ = open > 0;
   std::fill_n(slopes_.begin(), rank_ * rank_, Interval::empty());
   for (std::size_t sides = 0; sides < std::size_t{1} << open; ++sides) {
     for (std::size_t s = 0; s < open; ++s)
       machine_.set_side(surfaces[s], ((sides >> s) & 1U) != 0 ? Machine::Side::above : Machine::Side::below);
-    machine_.differentiate(*code_, active);
+    machine_.differentiate(*code_, active, stage_);
     join_slopes(active);
   }
   for (std::size_t s = 0; s < open; ++s) machine_.set_side(surfaces[s], Machine::Side::both);
@@ -192,10 +220,8 @@ bool Proof::expand() {
 void Proof::join_slopes(std::uint64_t active) {
   for (std::size_t k = 0; k < rank_; ++k) {
     for (std::size_t l = 0; l < rank_; ++l) {
-      const std::uint64_t before = active & ((std::uint64_t{1} << columns_[l]) - 1);
-      const auto column = static_cast<std::size_t>(__builtin_popcountll(before));
       Interval& slope = slopes_[k * rank_ + l];
-      slope = join(slope, machine_.slope(code_->tests[solved_rows_[k]].reg, column));
+      slope = join(slope, machine_.slope(code_->tests[solved_rows_[k]].reg, place(active, columns_[l])));
     }
   }
 }

@@ -23,7 +23,7 @@ class Proof {
   void keep_within_domains();
   [[nodiscard]] double room(std::size_t v) const;
   void collect_rows();
-  bool fill_matrix();
+  bool fill_matrix(std::uint64_t active);
   bool correct();
   bool holds_at_point();
   bool solve_exactly();
@@ -42,8 +42,11 @@ class Proof {
   const Code* code_ = nullptr;
   std::span<const Interval> domains_;
   std::size_t size_ = 0;
-  bool is_kinked_ = false;  // kinks are within reach
-  bool is_exact_ = false;   // in floating point all rows are 0
+  Code::Stage stage_ = Code::all;  // that has all rows
+  std::uint64_t all_ = 0, free_ = 0,
+                active_ = 0;  // unknowns: all, those that are no data, those of the matrix
+  bool is_kinked_ = false;    // kinks are within reach
+  bool is_exact_ = false;     // in floating point all rows are 0
   std::vector<double> point_;
   std::vector<std::uint8_t> is_active_, is_solved_;  // by test
   std::vector<std::uint32_t> rows_;                  // tests that are to be 0

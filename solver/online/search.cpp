@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "domains/interval/kernel.h"
+#include "solver/online/play.h"
 
 namespace hcsp::online {
 
@@ -31,12 +32,6 @@ std::size_t most_core(const std::vector<CompiledCase>& cases) {
 double middle(const Interval& x) {
   if (!x.is_bounded()) return x.lo() > -kInfinity ? x.lo() : x.hi() < kInfinity ? x.hi() : 0.0;
   return std::min(std::max(0.5 * x.lo() + 0.5 * x.hi(), x.lo()), x.hi());
-}
-
-// What parameters leave next to no play is data; near 0 next to none is 1e-12.
-bool is_thin(const Interval& x) {
-  constexpr double kThin = 1e-9, kSmall = 1e-3;
-  return x.is_bounded() && x.hi() - x.lo() <= kThin * std::max({std::abs(x.lo()), std::abs(x.hi()), kSmall});
 }
 
 // Where to cut: a wide domain by orders of magnitude.
@@ -66,20 +61,23 @@ Search::Search(Machine& machine, const std::vector<CompiledCase>& cases, const G
       order_(cases.size()),
       refutations_(names),
       last_(cases.size()),
-      likely_(cases.size()),
       provable_(cases.size()),
+      fronts_(cases.size()),
       domains_(most_core(cases)),
       proof_domains_(most_core(cases)),
       box_(most_core(cases)),
       part_(most_core(cases)),
       solution_(most_core(cases)),
       waiting_(kMostWaiting, most_core(cases)),
-      candidate_(most_core(cases)),
-      size_(most_core(cases)) {
+      candidate_(most_core(cases)) {
   std::iota(order_.begin(), order_.end(), std::size_t{0});
   for (std::size_t i = 0; i < cases.size(); ++i) {
     last_[i].search.resize(cases[i].search.core());
     last_[i].proof.resize(cases[i].proof.core());
+    sizes_.emplace_back(cases[i].search.core());
+    const Code& code = cases[i].search;
+    likely_.push_back(code.quick > 0 ? code.conditions[0]
+                                     : Test{0, Interval::entire(), false, false, false, false, 0});
   }
 }
 
@@ -95,12 +93,17 @@ const Finding& Search::run() {
   boxes_ = 0;
   machine_.evaluate(givens_.always);
   if (is_refuted(givens_.required)) return finding_;
-  for (const std::size_t number : order_) {
-    run_case(number);
-    if (finding_.is_found && !has_objective_) break;
-  }
+  waiting_.clear();
+  // Of boxes of which nothing is known yet the last that came is the first to be looked at.
+  for (std::size_t i = order_.size(); i-- > 0;) open(order_[i]);
+  // Where no case is what it was, there may be no solution any more.
+  const bool is_familiar = !waiting_.empty() && last_[waiting_.owner()].is_known;
+  if (!is_familiar && is_out_of_reason()) return finding_;
+  explore();
   if (!finding_.is_found) {
-    find_reason();
+    finding_.refuted_by = static_cast<std::uint32_t>(
+        std::max_element(refutations_.begin(), refutations_.end()) - refutations_.begin());
+    if (is_familiar) is_out_of_reason();
     return finding_;
   }
   const auto place = std::find(order_.begin(), order_.end(), finding_.best_case);
@@ -109,14 +112,13 @@ const Finding& Search::run() {
   return finding_;
 }
 
-// A relation that refutes all cases, or else one that refuted most.
-void Search::find_reason() {
-  finding_.refuted_by = static_cast<std::uint32_t>(
-      std::max_element(refutations_.begin(), refutations_.end()) - refutations_.begin());
+// Whether a relation that all cases have, though only implied, tells that there is no solution, and which.
+bool Search::is_out_of_reason() {
   machine_.evaluate(givens_.late);
-  if (!is_refuted(givens_.reasons)) return;
+  if (!is_refuted(givens_.reasons)) return false;
   finding_.lower = kInfinity;
   finding_.is_exhausted = false;
+  return true;
 }
 
 // What has an objective above this is of no interest.
@@ -127,20 +129,33 @@ bool Search::is_good_enough(double lower) const {
   return finding_.is_found && lower >= finding_.best.hi() - limits_.precision;
 }
 
-void Search::run_case(std::size_t number) {
-  const CompiledCase& of = cases_[number];
-  case_ = number;
+// Lets a case's domains wait, unless parameters refute it.
+void Search::open(std::size_t number) {
   if (is_refuted_by_givens(number)) return;
-  for (const Register factor : of.search.nonzero) {
+  const CompiledCase& of = cases_[number];
+  const Code& code = of.search;
+  case_ = number;
+  for (const Register factor : code.nonzero) {
     if (!machine_.value(factor).contains(0.0)) continue;
     finding_.is_exhausted = true;  // nothing is known of what is defined by a division by 0
     finding_.lower = -kInfinity;
     return;
   }
-  if (!find_domains(of.search, of.search_domains, false, domains_)) return;
-  if (last_[number].is_known && !finding_.is_found) try_last(of);
-  if (finding_.is_found && !has_objective_) return;
-  explore(of);
+  if (!find_domains(code, of.search_domains, false, domains_)) return;
+  Front& front = fronts_[number];
+  front = {};
+  for (std::size_t v = 0; v < code.core(); ++v) {
+    if (!is_thin(domains_[v])) front.active |= std::uint64_t{1} << v;
+  }
+  const auto equations =
+      std::count_if(code.tests.begin(), code.tests.end(), [](const Test& test) { return test.is_equation; });
+  front.is_free = has_objective_ && equations < __builtin_popcountll(front.active);
+  if (!waiting_.has_room_for(1)) {
+    finding_.is_exhausted = true;
+    finding_.lower = -kInfinity;
+    return;
+  }
+  waiting_.push({domains_.data(), code.core()}, static_cast<std::uint32_t>(number), -kInfinity);
 }
 
 // The first of some tests that holds nowhere.
@@ -154,22 +169,22 @@ bool Search::is_refuted(std::span<const Test> tests) {
 }
 
 bool Search::is_refuted_by_givens(std::size_t number) {
-  const Code& code = cases_[number].search;
-  const auto refutes = [&](std::size_t i) {
-    if (machine_.is_possible(code.conditions[i])) return false;
-    ++refutations_[code.conditions[i].name];
-    likely_[number] = i;
+  const auto refutes = [&](const Test& test) {
+    if (machine_.is_possible(test)) return false;
+    ++refutations_[test.name];
     return true;
   };
-  if (likely_[number] < code.quick && refutes(likely_[number])) return true;
-  for (std::size_t i = 0; i < code.quick; ++i) {
-    if (refutes(i)) return true;
+  if (refutes(likely_[number])) return true;
+  const Code& code = cases_[number].search;
+  const std::span<const Test> conditions = code.conditions;
+  for (const Test& test : conditions.first(code.quick)) {
+    if (!refutes(test)) continue;
+    likely_[number] = test;
+    return true;
   }
   machine_.evaluate(code.prelude);
-  for (std::size_t i = code.quick; i < code.conditions.size(); ++i) {
-    if (refutes(i)) return true;
-  }
-  return false;
+  const auto late = conditions.subspan(code.quick);
+  return std::any_of(late.begin(), late.end(), refutes);
 }
 
 // Whether all that is given of a proof is certain; then its prelude is evaluated.
@@ -215,22 +230,22 @@ void Search::try_last(const CompiledCase& of) {
 
 // The middle of a box, and 0 where that is at an end: where all rests, equations are often singular, and hold
 // exactly. Where kinks or inequalities meet exactly, data that are a little aside may be clear of them.
-void Search::try_box(const CompiledCase& of, std::span<const Interval> box, bool is_leaf) {
+bool Search::try_box(const CompiledCase& of, std::span<const Interval> box, bool is_leaf) {
   bool has_zero = false;
   for (std::size_t v = 0; v < box.size(); ++v) {
     const double x = middle(box[v]);
     part_[v] = Interval::raw(x, x);
     has_zero = has_zero || (x != 0.0 && (box[v].lo() == 0.0 || box[v].hi() == 0.0));
   }
-  if (try_part(of, kMiddle)) return;
+  if (try_part(of, kMiddle)) return true;
   for (const double place : {0.25, 0.75}) {
-    if (is_leaf && try_part(of, place)) return;
+    if (is_leaf && try_part(of, place)) return true;
   }
-  if (!has_zero) return;
+  if (!has_zero) return false;
   for (std::size_t v = 0; v < box.size(); ++v) {
     if (box[v].lo() == 0.0 || box[v].hi() == 0.0) part_[v] = Interval::raw(0.0, 0.0);
   }
-  try_part(of, kMiddle);
+  return try_part(of, kMiddle);
 }
 
 // A point of the search's core in terms of the proof's.
@@ -278,76 +293,77 @@ bool Search::try_point(const CompiledCase& of, double place) {
   return true;
 }
 
-// Data are never cut.
-void Search::find_active(const Code& code) {
-  active_ = 0;
-  for (std::size_t v = 0; v < code.core(); ++v) {
-    const Interval& x = domains_[v];
-    if (!is_thin(x)) active_ |= std::uint64_t{1} << v;
-  }
-}
-
-// Whether equations leave unknowns free: then solutions are not only where boxes end.
-bool Search::has_freedom(const Code& code) const {
-  const auto equations =
-      std::count_if(code.tests.begin(), code.tests.end(), [](const Test& test) { return test.is_equation; });
-  return equations < __builtin_popcountll(active_);
-}
-
 void Search::note_size(std::span<const Interval> box) {
   for (std::size_t v = 0; v < box.size(); ++v)
-    size_[v] = box[v].is_bounded() ? std::max(std::abs(box[v].lo()), std::abs(box[v].hi())) : 1.0;
+    sizes_[case_][v] = box[v].is_bounded() ? std::max(std::abs(box[v].lo()), std::abs(box[v].hi())) : 1.0;
 }
 
 // Whether to cut a box would tell no more: it is settled, or a speck on which the objective is known well
 // enough.
 bool Search::is_leaf(std::span<const Interval> box) const {
   constexpr double kSpeck = 1e-6, kKnown = 0.25;
-  if (contraction_.is_settled() || active_ == 0) return true;
+  const std::uint64_t active = fronts_[case_].active;
+  if (contraction_.is_settled() || active == 0) return true;
   if (!has_objective_ || !(contraction_.upper() - contraction_.lower() <= kKnown * limits_.precision))
     return false;
   for (std::size_t v = 0; v < box.size(); ++v) {
-    if (((active_ >> v) & 1U) != 0 && !(box[v].hi() - box[v].lo() <= kSpeck * size_[v])) return false;
+    if (((active >> v) & 1U) != 0 && !(box[v].hi() - box[v].lo() <= kSpeck * sizes_[case_][v])) return false;
   }
   return true;
 }
 
-void Search::explore(const CompiledCase& of) {
-  const Code& code = of.search;
-  const std::size_t core = code.core();
-  find_active(code);
-  const bool is_free = has_objective_ && has_freedom(code);
-  waiting_.clear();
-  waiting_.push({domains_.data(), core}, -kInfinity);
-  const std::span<Interval> box{box_.data(), core};
-  bool is_sized = false;
-  while (!waiting_.empty()) {
+// Proofs that fail time and again are tried less often; at the ends of the search later than on the way.
+bool Search::is_worth_trying(bool is_last) {
+  constexpr std::size_t kOften = 8, kAtEnds = 64, kSeldom = 4;
+  Front& front = fronts_[case_];
+  const bool is_promising = front.is_free && !is_good_enough(contraction_.expected());
+  if (!(is_last || is_promising || !finding_.is_found)) return false;
+  Attempts& attempts = is_last ? front.at_ends : front.on_the_way;
+  if (front.boxes < attempts.next) return false;
+  const bool is_often = ++attempts.count < (is_last ? kAtEnds : kOften);
+  attempts.next = is_often ? 0 : front.boxes + front.boxes / kSeldom;
+  return true;
+}
+
+void Search::explore() {
+  if (waiting_.empty()) return;
+  case_ = waiting_.owner();
+  if (last_[case_].is_known) try_last(cases_[case_]);
+  while (!waiting_.empty() && !(finding_.is_found && !has_objective_)) {
     if (++boxes_ > limits_.boxes) {
       finding_.is_exhausted = true;
       finding_.lower = std::min(finding_.lower, has_objective_ ? waiting_.lower() : 0.0);
       return;
     }
+    case_ = waiting_.owner();
+    const std::span<Interval> box{box_.data(), cases_[case_].search.core()};
     waiting_.pop(box);
-    const bool is_near = finding_.is_found && finding_.best_case == case_;
-    const std::span<const double> near =
-        is_near ? std::span<const double>(last_[case_].search) : std::span<const double>{};
-    if (!contraction_.contract(code, box, active_, cut_off(), near)) {
-      if (contraction_.refuted_by() != Contraction::kBound) ++refutations_[contraction_.refuted_by()];
-      continue;
-    }
-    if (!is_sized) note_size(box);
-    is_sized = true;
-    const double lower = has_objective_ ? contraction_.lower() : 0.0;
-    const bool is_last = is_leaf(box);
-    const bool is_promising = is_free && !is_good_enough(contraction_.expected());
-    if (!is_good_enough(lower) && (is_last || is_promising || !finding_.is_found)) try_box(of, box, is_last);
-    if (finding_.is_found && !has_objective_) return;
-    if (is_last || is_good_enough(lower)) {
-      if (lower <= cut_off()) finding_.lower = std::min(finding_.lower, lower);
-      continue;
-    }
-    split(code, box, lower);
+    look_at(box);
   }
+}
+
+// A box of the case at hand.
+void Search::look_at(std::span<Interval> box) {
+  const CompiledCase& of = cases_[case_];
+  Front& front = fronts_[case_];
+  const bool is_near = finding_.is_found && finding_.best_case == case_;
+  const std::span<const double> near =
+      is_near ? std::span<const double>(last_[case_].search) : std::span<const double>{};
+  if (!contraction_.contract(of.search, box, front.active, cut_off(), near)) {
+    if (contraction_.refuted_by() != Contraction::kBound) ++refutations_[contraction_.refuted_by()];
+    return;
+  }
+  if (front.boxes++ == 0) note_size(box);
+  const double lower = has_objective_ ? contraction_.lower() : 0.0;
+  const bool is_last = is_leaf(box);
+  if (!is_good_enough(lower) && is_worth_trying(is_last)) {
+    if (try_box(of, box, is_last)) front.at_ends = front.on_the_way = {};
+  }
+  if (is_last || is_good_enough(lower)) {
+    if (lower <= cut_off()) finding_.lower = std::min(finding_.lower, lower);
+    return;
+  }
+  split(of.search, box, lower);
 }
 
 // Cuts the widest side, relative to how large it is.
@@ -356,7 +372,7 @@ void Search::split(const Code& code, std::span<const Interval> box, double lower
   double most_width = 0.0;
   for (std::size_t v = 0; v < code.core(); ++v) {
     const Interval& x = box[v];
-    if (((active_ >> v) & 1U) == 0) continue;
+    if (((fronts_[case_].active >> v) & 1U) == 0) continue;
     const double magnitude = std::max(std::abs(x.lo()), std::abs(x.hi()));
     const double own = magnitude < kInfinity ? (x.hi() - x.lo()) / std::max(1.0, magnitude) : kInfinity;
     if (widest < code.core() && !(own > most_width)) continue;
@@ -371,9 +387,9 @@ void Search::split(const Code& code, std::span<const Interval> box, double lower
   std::copy(box.begin(), box.end(), part_.begin());
   const std::span<Interval> part{part_.data(), box.size()};
   part[widest] = Interval::raw(cut, box[widest].hi());
-  waiting_.push(part, lower);
+  waiting_.push(part, static_cast<std::uint32_t>(case_), lower);
   part[widest] = Interval::raw(box[widest].lo(), cut);
-  waiting_.push(part, lower);
+  waiting_.push(part, static_cast<std::uint32_t>(case_), lower);
 }
 
 }  // namespace hcsp::online

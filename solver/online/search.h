@@ -54,23 +54,23 @@ class Search {
   void forget();
 
  private:
-  void run_case(std::size_t number);
+  void open(std::size_t number);
+  void explore();
+  void look_at(std::span<Interval> box);
   bool is_refuted(std::span<const Test> tests);
   bool is_refuted_by_givens(std::size_t number);
-  void find_reason();
+  bool is_out_of_reason();
   bool is_provable(const CompiledCase& of);
   bool find_domains(const Code& code, std::span<const Interval> declared, bool is_inner,
                     std::span<Interval> domains);
   void try_last(const CompiledCase& of);
-  void try_box(const CompiledCase& of, std::span<const Interval> box, bool is_leaf);
+  bool try_box(const CompiledCase& of, std::span<const Interval> box, bool is_leaf);
   bool try_part(const CompiledCase& of, double place);
   bool try_point(const CompiledCase& of, double place);
   void put_data(const Code& code, double place);
-  void find_active(const Code& code);
-  void explore(const CompiledCase& of);
   void split(const Code& code, std::span<const Interval> box, double lower);
-  [[nodiscard]] bool has_freedom(const Code& code) const;
   void note_size(std::span<const Interval> box);
+  [[nodiscard]] bool is_worth_trying(bool is_last);
   [[nodiscard]] bool is_leaf(std::span<const Interval> box) const;
   [[nodiscard]] double cut_off() const;
   [[nodiscard]] bool is_good_enough(double lower) const;
@@ -90,15 +90,25 @@ class Search {
     bool is_known = false;
     std::vector<double> search, proof;  // points of the cores
   };
-  std::vector<Last> last_;           // by case
-  std::vector<std::size_t> likely_;  // by case: a condition that refuted it
+  std::vector<Last> last_;    // by case
+  std::vector<Test> likely_;  // by case: a quick condition, the one that refuted it last
   enum class Provable : std::uint8_t { unknown, no, yes };
   Provable is_any_provable_ = Provable::unknown;
   std::vector<Provable> provable_;  // by case
-  std::uint64_t active_ = 0;
+  struct Attempts {
+    std::size_t count = 0, next = 0;  // of failed ones; how many boxes to wait for
+  };
+  struct Front {
+    std::uint64_t active = 0;  // the unknowns of the core that are no data
+    bool is_free = false;      // equations leave some of them free: solutions are not only where boxes end
+    std::size_t boxes = 0;
+    Attempts at_ends, on_the_way;
+  };
+  std::vector<Front> fronts_;  // by case
   std::vector<Interval> domains_, proof_domains_, box_, part_, solution_;
   WaitingBoxes waiting_;
-  std::vector<double> candidate_, size_;  // size_: by unknown of the core, the case's first box
+  std::vector<double> candidate_;
+  std::vector<std::vector<double>> sizes_;  // by case, by unknown of the core: of the first box
 };
 
 }  // namespace hcsp::online

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Latencies of compiled problems, one thread, in microseconds of this thread's time: percentiles over random
-// parameters, "cold" with nothing remembered, "warm" after a solve of almost the same.
+// parameters, first with nothing remembered, then "warm", after a solve of almost the same.
 //   online_bench [DRAWS]
 #include <algorithm>
 #include <cmath>
@@ -9,7 +9,7 @@
 #include <ctime>
 #include <random>
 
-#include "tests/support/straight_line.h"
+#include "lang/online.h"
 #include "tests/support/two_circles.h"
 
 namespace hcsp {
@@ -57,7 +57,12 @@ class Motion {
  public:
   static constexpr std::size_t kJoints = 7;
   Motion(CompiledProblem& compiled, Random& random, bool is_moving, bool ends_moving)
-      : compiled_(compiled), d_(kJoints), vmax_(kJoints), amax_(kJoints), jmax_(kJoints) {
+      : compiled_(compiled),
+        ends_moving_(ends_moving),
+        d_(kJoints),
+        vmax_(kJoints),
+        amax_(kJoints),
+        jmax_(kJoints) {
     double w = kInfinity, a = kInfinity, j = kInfinity;
     for (double& x : d_) x = draw(random, -2.0, 2.0);
     const auto greatest =
@@ -84,10 +89,10 @@ class Motion {
     give("vmax", vmax_);
     give("amax", amax_);
     give("jmax", jmax_);
-    give("d", scaled(part * reference_));
+    give("p1", scaled(part * reference_));
     give("v0", scaled(v0_));
     give("a0", scaled(a0_));
-    give("v1", scaled(v1_));
+    if (ends_moving_) give("v1", scaled(v1_));
   }
 
  private:
@@ -101,14 +106,18 @@ class Motion {
   }
 
   CompiledProblem& compiled_;
+  bool ends_moving_;
   std::vector<double> d_, vmax_, amax_, jmax_;
   double reference_ = 0.0, v0_ = 0.0, a0_ = 0.0, v1_ = 0.0;
 };
 
 void bench_motions(const char* name, int draws, bool is_moving, bool ends_moving) {
   Random random(1);
-  oracle::StraightLine line(Motion::kJoints);
-  CompiledProblem compiled = line.compiled();
+  lang::CompileOptions options;
+  options.parameters = {{"K", std::to_string(Motion::kJoints)}, {"p1", "zeros(K)"}};
+  const std::string model = ends_moving ? "type4.hcsp" : "type3.hcsp";
+  CompiledProblem compiled =
+      compile(std::string(HCSP_SOURCE_DIR) + "/models/straight_line/" + model, options);
   Latencies cold, warm;
   for (int k = 0; k < draws; ++k) {
     Motion motion(compiled, random, is_moving, ends_moving);
