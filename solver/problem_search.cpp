@@ -52,23 +52,25 @@ struct SearchView {
     });
   }
 
-  // A box that holds a solution, if compiling finds a good one: on phases it eliminates what is defined, and
-  // so proves limits that are reached, which search by itself cannot.
-  [[nodiscard]] std::optional<std::vector<Interval>> compiled_solution(Problem& stated, Expr objective,
-                                                                       const SearchOptions& options) const {
+  // What compiling finds: on phases it eliminates what is defined, and so proves limits that are reached,
+  // which search by itself cannot.
+  [[nodiscard]] KnownOptimum compiled_optimum(Problem& stated, Expr objective,
+                                              const SearchOptions& options) const {
+    KnownOptimum known;
     try {
       OnlineOptions online;
       online.precision = options.precision;
+      online.most_boxes = 20000;  // there is no cycle to keep
       CompiledProblem compiled = compile(stated, objective, online);
-      compiled.solve();
-      if (!compiled.has_solution()) return {};
-      std::vector<Interval> box;
+      if (compiled.solve() == OnlineStatus::infeasible) known.minimum = Interval::empty();
+      if (!compiled.has_solution()) return known;
+      known.minimum = compiled.objective();
+      known.solution.emplace();
       for (const System::Unknown& unknown : unknowns)
-        box.push_back(compiled.value(RealVariable{unknown.input.variable}));
-      return box;
-    } catch (const std::invalid_argument&) {
-      return {};  // too many cases
+        known.solution->push_back(compiled.value(RealVariable{unknown.input.variable}));
+    } catch (const std::invalid_argument&) {  // too many cases
     }
+    return known;
   }
 
   // Unknowns that are in no relation have many values.
@@ -176,8 +178,8 @@ Result Problem::minimize(Expr objective, const SearchOptions& options) {
                         impl_->certain);
   const Input value{Input::Kind::real, static_cast<VariableId>(impl_->kinds.size()), 0, 0};
   const Minimisation problem(impl_->dag, node, relations, view.unknowns, value, implied);
-  const auto known =
-      impl_->phases == nullptr ? std::nullopt : view.compiled_solution(*this, objective, options);
+  const KnownOptimum known =
+      impl_->phases == nullptr ? KnownOptimum{} : view.compiled_optimum(*this, objective, options);
   const MinimumAnswer answer = branch_and_bound(problem, options, known);
   std::vector<FoundBox> found;
   if (answer.best) found.push_back({*answer.best, Certificate::exists, Reason::proven});

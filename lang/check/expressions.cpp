@@ -26,8 +26,12 @@ Type Checker::check(const Expr& expr) {
 Type Checker::check_kind(const Expr& expr) {
   const Type number{Type::Kind::real, false, 0, Known::now, nullptr};
   switch (expr.kind) {
-    case ExprKind::number:
+    case ExprKind::number: {
+      const auto written = Number::parse(expr.text);
+      if (written && !written->enclosure.is_bounded())
+        diagnostics().report(Code::out_of_range, expr.range, "no double is as large");
       return number;
+    }
     case ExprKind::string:
       return {Type::Kind::text, false, 0, Known::now, nullptr};
     case ExprKind::boolean:

@@ -48,7 +48,7 @@ struct CompiledProblem::Impl {
         is_invalid(parameters.size()),
         is_set(parameters.size()),
         values(compiled.variables),
-        outputs(compiled.wanted() - (compiled.has_objective ? 1 : 0)),
+        outputs(compiled.wanted - (compiled.has_objective ? 1 : 0)),
         own_outputs(options.outputs.size()) {}
 
   template <class Number>

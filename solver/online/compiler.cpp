@@ -44,6 +44,7 @@ Compiled::Compiled(const Question& question)
     : prefix(question.parameters),
       followers(*question.dag, question.followed, places_of(question.parameters)),
       has_objective(question.has_objective),
+      wanted(question.wanted.size()),
       names(question.names),
       parameter_names(question.parameter_names),
       parameter_values(question.parameter_values),

@@ -56,6 +56,7 @@ struct Compiled {
   std::vector<CompiledCase> cases;
   std::vector<std::vector<Source>> sources;  ///< by case, by variable
   bool has_objective;
+  std::size_t wanted;  ///< how many expressions are wanted of a solution
   std::vector<std::string> names, parameter_names;
   std::vector<Interval> parameter_values;
   std::map<std::string, Named> parameter_places, variable_places;
@@ -65,8 +66,6 @@ struct Compiled {
   [[nodiscard]] std::size_t most_registers() const;
   [[nodiscard]] std::size_t most_core() const;
   [[nodiscard]] std::size_t most_surfaces() const;
-  /// How many expressions are wanted of a solution.
-  [[nodiscard]] std::size_t wanted() const { return cases.empty() ? 0 : cases.front().proof.wanted.size(); }
 };
 
 Compiled compile_cases(const Question& question, std::size_t most_cases);

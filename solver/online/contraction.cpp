@@ -56,6 +56,7 @@ bool Contraction::contract(const Code& code, std::span<Interval> box, std::uint6
   for (int step = 0; step < kMostSteps; ++step) {
     is_settled_ = false;
     if (!evaluate(step == 0 ? Code::all : Code::main)) return false;
+    is_tested_whole_ = active_ == 0;
     if (active_ == 0) break;
     if (step == 0 && !contract_by_hc4()) return false;
     std::copy(box.begin(), box.end(), before_.begin());
@@ -65,10 +66,16 @@ bool Contraction::contract(const Code& code, std::span<Interval> box, std::uint6
       if (!alive) return false;
     }
     find_whether_settled();
-    if (is_settled_) return evaluate(Code::all);  // what is left of the box may have a higher lower bound
+    if (is_settled_) return test_whole();
     if (widest_part() > kWorthwhile) break;
   }
   return true;
+}
+
+// What is left of a box may have a higher lower bound, and not be what inequalities require.
+bool Contraction::test_whole() {
+  is_tested_whole_ = true;
+  return evaluate(Code::all);
 }
 
 // How much of an unknown's width was left, where that is least.

@@ -21,6 +21,11 @@ class Contraction {
   bool contract(const Code& code, std::span<Interval> box, std::uint64_t active, double best,
                 std::span<const double> near);
   [[nodiscard]] std::uint32_t refuted_by() const { return refuted_by_; }
+  /// Tests the box, as it was left, against all that is required, and bounds the objective on it; false where
+  /// nothing is left.
+  bool test_whole();
+  /// Whether that was done already.
+  [[nodiscard]] bool is_tested_whole() const { return is_tested_whole_; }
   /// A lower bound of the objective on the box.
   [[nodiscard]] double lower() const { return lower_; }
   /// An upper bound of it there.
@@ -58,7 +63,7 @@ class Contraction {
   std::size_t active_count_ = 0;
   double best_ = 0.0, lower_ = 0.0, upper_ = 0.0, expected_ = 0.0;
   std::uint32_t refuted_by_ = 0;
-  bool is_settled_ = false;
+  bool is_settled_ = false, is_tested_whole_ = false;
   std::vector<Interval> before_, center_, form_slopes_, form_values_, row_;
   std::vector<std::uint8_t> has_form_;          // by test, and one more for the objective
   std::vector<double> noise_;                   // by unknown: how narrow an equation could make it

@@ -24,6 +24,7 @@ Proof::Proof(Machine& machine, std::size_t most_tests, std::size_t most_core)
       is_active_(most_tests),
       is_solved_(most_tests),
       rows_(most_tests),
+      least_(most_tests),
       pivoting_(most_tests, most_core),
       solved_rows_(most_core),
       columns_(most_core),
@@ -101,16 +102,33 @@ bool Proof::fill_matrix(std::uint64_t active) {
   return pivoting_.eliminate(active == all_ ? kNoise : kPlay);
 }
 
+// Whether some row is much nearer to 0 than it ever was: otherwise all that moves is rounding.
+bool Proof::is_closer() {
+  constexpr double kMuch = 0.5;
+  bool is_any = false;
+  for (std::size_t k = 0; k < row_count_; ++k) {
+    const double size = std::abs(machine_.real(code_->tests[rows_[k]].reg));
+    is_any = is_any || size < kMuch * least_[k];
+    least_[k] = std::min(least_[k], size);
+  }
+  return is_any;
+}
+
 // Newton's method in floating point. Where a step is small the next would be far smaller.
 bool Proof::correct() {
   constexpr int kMostSteps = 20;
+  constexpr int kMostVain = 2;
   constexpr double kSmall = 1e-12;  // next to what data play, or a kink may be on the way
+  constexpr double kNear = 1e-2;
   collect_rows();
+  std::fill_n(least_.begin(), row_count_, kInfinity);
+  int vain = 0;
   for (int step = 0; step < kMostSteps; ++step) {
     keep_within_domains();
     machine_.evaluate_real(*code_, {point_.data(), size_}, stage_);
     is_exact_ = std::all_of(rows_.begin(), rows_.begin() + static_cast<std::ptrdiff_t>(row_count_),
                             [&](std::uint32_t i) { return machine_.real(code_->tests[i].reg) == 0.0; });
+    vain = is_closer() ? 0 : vain + 1;
     // Data are solved for only where the others do not do.
     if (!fill_matrix(free_)) return false;
     if (pivoting_.rank() < row_count_ && !fill_matrix(all_)) return false;
@@ -123,7 +141,7 @@ bool Proof::correct() {
                       std::abs(change) / std::max(std::abs(point_[v]), std::numeric_limits<double>::min()));
     }
     if (!(most < kInfinity)) return false;
-    if (most < kSmall) break;
+    if (most < kSmall || (vain >= kMostVain && most < kNear)) break;
   }
   keep_within_domains();
   return true;

@@ -25,6 +25,7 @@ class Proof {
   void collect_rows();
   bool fill_matrix(std::uint64_t active);
   bool correct();
+  bool is_closer();
   bool holds_at_point();
   bool solve_exactly();
   bool precondition();
@@ -50,6 +51,7 @@ class Proof {
   std::vector<double> point_;
   std::vector<std::uint8_t> is_active_, is_solved_;  // by test
   std::vector<std::uint32_t> rows_;                  // tests that are to be 0
+  std::vector<double> least_;                        // by row: how near to 0 it was
   std::size_t row_count_ = 0;
   Pivoting pivoting_;
   std::size_t rank_ = 0;

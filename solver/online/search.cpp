@@ -349,13 +349,14 @@ void Search::look_at(std::span<Interval> box) {
   const bool is_near = finding_.is_found && finding_.best_case == case_;
   const std::span<const double> near =
       is_near ? std::span<const double>(last_[case_].search) : std::span<const double>{};
-  if (!contraction_.contract(of.search, box, front.active, cut_off(), near)) {
+  const auto refuted = [&] {
     if (contraction_.refuted_by() != Contraction::kBound) ++refutations_[contraction_.refuted_by()];
-    return;
-  }
+  };
+  if (!contraction_.contract(of.search, box, front.active, cut_off(), near)) return refuted();
   if (front.boxes++ == 0) note_size(box);
-  const double lower = has_objective_ ? contraction_.lower() : 0.0;
   const bool is_last = is_leaf(box);
+  if (is_last && !contraction_.is_tested_whole() && !contraction_.test_whole()) return refuted();
+  const double lower = has_objective_ ? contraction_.lower() : 0.0;
   if (!is_good_enough(lower) && is_worth_trying(is_last)) {
     if (try_box(of, box, is_last)) front.at_ends = front.on_the_way = {};
   }

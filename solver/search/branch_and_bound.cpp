@@ -258,12 +258,12 @@ class Minimiser {
         options_(options),
         tree_(options_, [&] { return Bounder(problem_, options_, shared_); }) {}
 
-  MinimumAnswer run(const std::optional<std::vector<Interval>>& known) {
-    if (known) offer(*known);
+  MinimumAnswer run(const KnownOptimum& known) {
+    if (known.solution) offer(*known.solution);
     const std::uint64_t mark = mark_of(problem_.with_value, "minimize", options_);
     std::vector<Bounder::Node> roots;
     if (options_.resume.empty()) {
-      roots.push_back({problem_.with_value.domains});
+      add_root(known.minimum, roots);
     } else {
       resume(opened(options_.resume, mark), roots);
     }
@@ -275,6 +275,13 @@ class Minimiser {
   }
 
  private:
+  void add_root(const Interval& minimum, std::vector<Bounder::Node>& roots) const {
+    if (minimum.is_empty()) return;
+    Bounder::Node root{problem_.with_value.domains};
+    root.box.back() = meet(root.box.back(), Interval::raw(minimum.lo(), kInfinity));
+    roots.push_back(std::move(root));
+  }
+
   void offer(const std::vector<Interval>& box) {
     const RoundUpward guard;
     shared_.incumbent.offer(ObjectiveRun(problem_).on(box).hi(), box);
@@ -379,7 +386,7 @@ bool is_close(const Interval& minimum, const SearchOptions& options) {
 }
 
 MinimumAnswer branch_and_bound(const Minimisation& problem, const SearchOptions& options,
-                               const std::optional<std::vector<Interval>>& known) {
+                               const KnownOptimum& known) {
   SearchOptions ordered = options;
   if (!ordered.order) ordered.order = SearchOrder::best_first;
   return Minimiser(problem, ordered).run(known);

@@ -25,10 +25,15 @@ struct MinimumAnswer {
 /// Whether a bracket of the minimum is as narrow as asked for, absolutely or relatively.
 bool is_close(const Interval& minimum, const SearchOptions& options);
 
+/// What is proven before the search begins.
+struct KnownOptimum {
+  std::optional<std::vector<Interval>> solution;  ///< a box that holds one
+  Interval minimum = Interval::entire();          ///< holds the infimum; empty: there is no solution
+};
+
 /// Ends when the bracket is close, when what is left cannot be cut any more, or at a limit; then the answer
-/// is still guaranteed. Answers of different numbers of threads overlap. `known` holds a solution that is
-/// proven already.
+/// is still guaranteed. Answers of different numbers of threads overlap.
 MinimumAnswer branch_and_bound(const Minimisation& problem, const SearchOptions& options,
-                               const std::optional<std::vector<Interval>>& known = {});
+                               const KnownOptimum& known = {});
 
 }  // namespace hcsp
