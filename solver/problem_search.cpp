@@ -22,6 +22,11 @@ std::vector<NodeId> joined(std::vector<NodeId> all, const std::vector<NodeId>& m
   return all;
 }
 
+struct CompiledAnswer {
+  KnownOptimum known;
+  std::string refuted_by;  ///< a constraint, where there is no solution
+};
+
 // The unknowns of a search, and what its boxes tell of all of the problem's.
 struct SearchView {
   const ProblemView problem;
@@ -54,23 +59,27 @@ struct SearchView {
 
   // What compiling finds: on phases it eliminates what is defined, and so proves limits that are reached,
   // which search by itself cannot.
-  [[nodiscard]] KnownOptimum compiled_optimum(Problem& stated, Expr objective,
-                                              const SearchOptions& options) const {
-    KnownOptimum known;
+  [[nodiscard]] CompiledAnswer compiled_answer(Problem& stated, Expr objective,
+                                               const SearchOptions& options) const {
+    CompiledAnswer answer;
+    KnownOptimum& known = answer.known;
     try {
       OnlineOptions online;
       online.precision = options.precision;
       online.most_boxes = 20000;  // there is no cycle to keep
       CompiledProblem compiled = compile(stated, objective, online);
-      if (compiled.solve() == OnlineStatus::infeasible) known.minimum = Interval::empty();
-      if (!compiled.has_solution()) return known;
+      if (compiled.solve() == OnlineStatus::infeasible) {
+        known.minimum = Interval::empty();
+        answer.refuted_by = compiled.reason();
+      }
+      if (!compiled.has_solution()) return answer;
       known.minimum = compiled.objective();
       known.solution.emplace();
       for (const System::Unknown& unknown : unknowns)
         known.solution->push_back(compiled.value(RealVariable{unknown.input.variable}));
     } catch (const std::invalid_argument&) {  // too many cases
     }
-    return known;
+    return answer;
   }
 
   // Unknowns that are in no relation have many values.
@@ -178,15 +187,16 @@ Result Problem::minimize(Expr objective, const SearchOptions& options) {
                         impl_->certain);
   const Input value{Input::Kind::real, static_cast<VariableId>(impl_->kinds.size()), 0, 0};
   const Minimisation problem(impl_->dag, node, relations, view.unknowns, value, implied);
-  const KnownOptimum known =
-      impl_->phases == nullptr ? KnownOptimum{} : view.compiled_optimum(*this, objective, options);
-  const MinimumAnswer answer = branch_and_bound(problem, options, known);
+  const CompiledAnswer compiled =
+      impl_->phases == nullptr ? CompiledAnswer{} : view.compiled_answer(*this, objective, options);
+  const MinimumAnswer answer = branch_and_bound(problem, options, compiled.known);
   std::vector<FoundBox> found;
   if (answer.best) found.push_back({*answer.best, Certificate::exists, Reason::proven});
   for (const std::vector<Interval>& box : answer.boxes)
     found.push_back({box, Certificate::none, Reason::boundary});
   Result result = result_of(view, found, answer.unexplored, answer.cells);
   result.objective = answer.minimum;
+  if (!compiled.refuted_by.empty()) result.explanation = Explanation{compiled.refuted_by, {}, {}, {}, true};
   tell_time(result, started, options);
   return result;
 }

@@ -95,7 +95,9 @@ std::string line(const SetInterval& set) {
 }
 
 void explain(const Explanation& why, std::string& text) {
-  text += fmt::format("no solution: `{}` leaves nothing of `{}`", why.constraint, why.variable);
+  text += why.variable.empty()
+              ? fmt::format("no solution: refuted by `{}`", why.constraint)
+              : fmt::format("no solution: `{}` leaves nothing of `{}`", why.constraint, why.variable);
   if (why.time) {
     const auto [from, to] = *why.time;
     text += from == to ? fmt::format(" at t = {}", from) : fmt::format(" for t in [{}, {}]", from, to);
@@ -156,7 +158,13 @@ std::string summary_of_search(const Result& result, const std::vector<std::strin
                                  result.statistics.seconds, search.cells, search.cells == 1 ? "" : "s");
   if (result.objective && !result.objective->is_empty())
     text += fmt::format("objective in {}\n", line(*result.objective));
-  if (boxes == 0) return text + (result.status == Status::infeasible ? "no solution: proven\n" : "");
+  if (boxes == 0) {
+    if (result.explanation)
+      explain(*result.explanation, text);
+    else if (result.status == Status::infeasible)
+      text += "no solution: proven\n";
+    return text;
+  }
   text += fmt::format("{} box{}: {}\n", boxes, boxes == 1 ? "" : "es", certificates(search));
   for (std::size_t i = 0; i < std::min(boxes, kShown); ++i) {
     const Solution& solution = search.solutions[i];

@@ -54,7 +54,9 @@ std::string caption(const Result& result) {
     text += fmt::format(", objective in {}", to_string(*result.objective));
   if (!result.explanation) return text;
   const Explanation& why = *result.explanation;
-  text += fmt::format(": constraint {} leaves no value for {}", why.constraint, why.variable);
+  text += why.variable.empty()
+              ? fmt::format(": refuted by constraint {}", why.constraint)
+              : fmt::format(": constraint {} leaves no value for {}", why.constraint, why.variable);
   if (why.time) {
     text += fmt::format(" at t in [{}, {}]", report::for_people((*why.time)[0]),
                         report::for_people((*why.time)[1]));

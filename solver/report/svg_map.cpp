@@ -65,6 +65,16 @@ const ResultVariable* leading_tube(const std::vector<const ResultVariable*>& sho
   return leading;
 }
 
+// The end, where one may be over before the picture is: the last item at which something is known of both.
+std::size_t last_known(const Tube& a, const Tube& b) {
+  std::size_t item = a.items() - 1;
+  const auto is_known = [&](std::size_t c) {
+    return a.at(c, item).is_bounded() && b.at(c, item).is_bounded();
+  };
+  while (item > 0 && !(is_known(0) && is_known(1))) --item;
+  return item;
+}
+
 // The others that lead from where it starts to where it ends, on phases: ways to compare.
 std::vector<const ResultVariable*> other_paths(const std::vector<const ResultVariable*>& shown,
                                                const ResultVariable* leading) {
@@ -75,7 +85,7 @@ std::vector<const ResultVariable*> other_paths(const std::vector<const ResultVar
     const auto* tube = std::get_if<Tube>(&variable->domain);
     if (variable == leading || tube == nullptr || !variable->shape.is_drawn || tube->dim() < 2) continue;
     const bool is_same_way = [&] {
-      for (const std::size_t end : {std::size_t{0}, way.items() - 1}) {
+      for (const std::size_t end : {std::size_t{0}, last_known(way, *tube)}) {
         for (const std::size_t c : {0U, 1U}) {
           if (meet(way.at(c, end), tube->at(c, end)).is_empty()) return false;
         }

@@ -21,7 +21,10 @@ function leadingTube(data, tubes) {
 function isSameWay(data, tube, other) {
   if (!tube.drawn || !other.drawn) return false;
   const a = lastDomain(data, tube.index), b = lastDomain(data, other.index);
-  return [0, a.items - 1].every((item) => [0, 1].every((c) => a.lo(c, item) <= b.hi(c, item) && b.lo(c, item) <= a.hi(c, item)));
+  const isKnown = (item) => [0, 1].every((c) => [a.lo(c, item), a.hi(c, item), b.lo(c, item), b.hi(c, item)].every(Number.isFinite));
+  let last = a.items - 1;  // one may be over before the picture is
+  while (last > 0 && !isKnown(last)) --last;
+  return [0, last].every((item) => [0, 1].every((c) => a.lo(c, item) <= b.hi(c, item) && b.lo(c, item) <= a.hi(c, item)));
 }
 
 // Of a paving, what its boxes are.
@@ -79,8 +82,8 @@ function fillExplanation(data) {
   line.append("strong").text("No solution exists. ");
   line.append("span").text("Constraint ");
   line.append("code").text(why.constraint);
-  line.append("span").text(" leaves no value for ");
-  line.append("code").text(why.variable);
+  line.append("span").text(why.variable ? " leaves no value for " : " refutes it.");
+  if (why.variable) line.append("code").text(why.variable);
   if (why.time) {
     line.append("span").text(why.time[0] === why.time[1] ? ` at t = ${textOfNumber(why.time[0])}.`
       : ` for t in [${why.time.map(textOfNumber).join(", ")}].`);
