@@ -166,18 +166,19 @@ class MapView {
     const x = d3.scaleLinear([this.fromX(0), this.fromX(width)], [0, width]);
     const y = d3.scaleLinear([this.fromY(height), this.fromY(0)], [height, 0]);
     const keep = (scale, lo, hi) => scale.ticks(7).filter((value) => scale(value) > lo && scale(value) < hi);
+    const names = this.layers.filter((layer) => layer.kind === "tube" && layer.on).concat(this.layers);
+    const name = names.length ? names[0].name : "";
+    const [nameX, nameY] = this.axisNames || [name + "\u2081", name + "\u2082"];
+    const room = 16 + 7 * nameX.length;
     this.axisX.attr("transform", `translate(0,${height - 18})`)
-      .call(d3.axisBottom(x).tickValues(keep(x, 34, width - 30)).tickSize(4).tickPadding(2));
+      .call(d3.axisBottom(x).tickValues(keep(x, 34, width - room)).tickSize(4).tickPadding(2));
     this.axisY.attr("transform", "translate(26,0)")
       .call(d3.axisLeft(y).tickValues(keep(y, 24, height - 26)).tickSize(4).tickPadding(2));
     if (this.axisNames && !this.axisNames[1]) this.axisY.selectAll("*").remove();
-    const names = this.layers.filter((layer) => layer.kind === "tube" && layer.on).concat(this.layers);
-    const name = names.length ? names[0].name : "";
-    const label = (axis, text, dx, dy) => axis.selectAll("text.title").data([text]).join("text")
-      .attr("class", "title").attr("x", dx).attr("y", dy).attr("text-anchor", "middle").text((d) => d);
-    const [nameX, nameY] = this.axisNames || [name + "\u2081", name + "\u2082"];
-    label(this.axisX, nameX, width - 14, 13);
-    label(this.axisY, nameY, -12, 15);
+    const label = (axis, text, anchor, dx, dy) => axis.selectAll("text.title").data([text]).join("text")
+      .attr("class", "title").attr("x", dx).attr("y", dy).attr("text-anchor", anchor).text((d) => d);
+    label(this.axisX, nameX, "end", width - 6, 13);
+    label(this.axisY, nameY, "start", -20, 15);
   }
 
   drawTruth() {
