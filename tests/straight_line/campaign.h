@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstdint>
 #include <cstdlib>
 #include <random>
@@ -32,14 +33,15 @@ inline bool full() {
 }
 
 /// Runs cases 1 to `count` (`full_count`), or the one that the environment names; a case that fails tells how
-/// to run it again. More than ten failures end a run.
+/// to run it again. Many failures end a run.
 template <typename Case>
 void run_cases(std::uint64_t count, std::uint64_t full_count, const Case& run_case) {
   const char* only = std::getenv("HCSP_SEED");
   const std::uint64_t first = only != nullptr ? std::strtoull(only, nullptr, 10) : 1;
   const std::uint64_t last = only != nullptr ? first : full() ? full_count : count;
   const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
-  for (std::uint64_t seed = first, failed = 0; seed <= last && failed < 10; ++seed) {
+  const std::uint64_t most_failures = full() ? 1000 : 10;
+  for (std::uint64_t seed = first, failed = 0; seed <= last && failed < most_failures; ++seed) {
     SCOPED_TRACE(::testing::Message() << "again: HCSP_SEED=" << seed << " straight_line_tests --gtest_filter="
                                       << test->test_suite_name() << '.' << test->name());
     const int before = ::testing::UnitTest::GetInstance()->current_test_info()->result()->total_part_count();
