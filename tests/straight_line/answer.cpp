@@ -26,26 +26,38 @@ Curve curve(const std::array<Span, 5>& spans) {
   return c;
 }
 
-/// The derivatives at a later instant.
-Curve at(const Curve& c, const Precise& t) {
-  Curve later;
-  for (std::size_t i = c.size(); i-- > 0;) {
-    Precise sum;
-    for (std::size_t j = c.size(); j-- > i;) sum = c[j] + sum * t / Precise(static_cast<double>(j - i + 1));
-    later[i] = sum;
+/// t^i/i!
+Curve powers(const Precise& t) {
+  Curve all{Precise(1.0), t};
+  for (std::size_t i = 2; i < all.size(); ++i) all[i] = all[i - 1] * t / Precise(static_cast<double>(i));
+  return all;
+}
+
+/// A derivative at a later instant.
+Precise value(const Curve& c, const Curve& power, std::size_t order) {
+  Precise sum = c[order];
+  for (std::size_t i = order + 1; i < c.size(); ++i) {
+    if (!c[i].is_zero()) sum = sum + c[i] * power[i - order];
   }
+  return sum;
+}
+
+/// All of them.
+Curve at(const Curve& c, const Curve& power) {
+  Curve later;
+  for (std::size_t order = 0; order < c.size(); ++order) later[order] = value(c, power, order);
   return later;
 }
 
-/// Instants of a phase at which a derivative may be extremal: its ends, and such as are certainly between
-/// them, by the middles of the next derivatives.
-std::vector<Precise> extrema(const Curve& c, std::size_t of, const Span& duration) {
-  std::vector<Precise> times{0.0, precise(duration)};
+/// Instants within a phase at which a derivative may be extremal: such as are certainly between its ends, by
+/// the middles of the next derivatives.
+std::vector<double> extrema(const Curve& c, std::size_t of, const Span& duration) {
+  std::vector<double> times;
   if (of + 1 >= c.size()) return times;
   std::array<double, 3> d{};  // the next derivative as a polynomial: d0 + d1 t + d2 t^2 / 2
   for (std::size_t i = 0; i < 3 && of + 1 + i < c.size(); ++i) d[i] = c[of + 1 + i].middle();
   const auto add = [&](double t) {
-    if (t > 0 && t < duration.lo) times.emplace_back(t);
+    if (t > 0 && t < duration.lo) times.push_back(t);
   };
   if (d[2] == 0) {
     add(-d[0] / d[1]);
@@ -64,16 +76,18 @@ class Check {
   std::vector<std::string> run() {
     if (!has_shape()) return faults_;
     check_times();
+    read();
     for (std::size_t k = 0; k < move_.joints(); ++k) {
       check_ends(k);
       for (std::size_t i = 0; i < answer_.segments.size(); ++i) check_segment(k, i);
+      for (std::size_t order = 1; order <= 4; ++order) check_limits(k, order);
     }
     return faults_;
   }
 
  private:
   void fault(const std::string& what) { faults_.push_back(what); }
-  [[nodiscard]] std::string place(std::size_t k, std::size_t i) const {
+  static std::string place(std::size_t k, std::size_t i) {
     return " of joint " + std::to_string(k + 1) + " in segment " + std::to_string(i + 1);
   }
 
@@ -98,9 +112,24 @@ class Check {
     if (!(answer_.bracket.hi >= answer_.T.lo)) fault("T is above the upper bound");
   }
 
-  Curve joint(std::size_t k, std::size_t i) const { return curve(answer_.segments[i].joints[k]); }
-  Curve end(std::size_t k, std::size_t i) const {
-    return at(joint(k, i), precise(answer_.segments[i].duration));
+  void read() {
+    for (const Segment& segment : answer_.segments) {
+      const Curve power = powers(precise(segment.duration));
+      starts_.emplace_back();
+      ends_.emplace_back();
+      for (const auto& spans : segment.joints) {
+        starts_.back().push_back(curve(spans));
+        ends_.back().push_back(at(starts_.back().back(), power));
+        for (std::size_t order = 0; order < 5; ++order)
+          scale_[order] = std::max(scale_[order], std::abs(spans[order].middle()));
+      }
+    }
+    for (std::size_t order = 1; order < 5;
+         ++order) {  // how great such numbers get, or may: for what is narrow
+      const Vector* limit = move_.parameter(kLimits[order - 1].second);
+      if (limit == nullptr) continue;
+      scale_[order] = std::max(scale_[order], *std::max_element(limit->begin(), limit->end()));
+    }
   }
 
   /// Given vectors are boxes of relative half-width tol.
@@ -121,53 +150,47 @@ class Check {
       const Vector* values = move_.parameter(name);
       return values == nullptr && move_.type >= from_type ? &zero : values;
     };
-    check_given(joint(k, 0), {given("p0", 1), given("v0", 1), given("a0", 3), given("j0", 6)}, k,
+    check_given(starts_.front()[k], {given("p0", 1), given("v0", 1), given("a0", 3), given("j0", 6)}, k,
                 "at the start");
-    check_given(end(k, answer_.segments.size() - 1),
-                {given("p1", 1), given("v1", 1), given("a1", 3), given("j1", 6)}, k, "at the end");
-  }
-
-  /// How great such numbers get, or may: for what is narrow.
-  double scale(std::size_t order) const {
-    double greatest = 0;
-    for (const Segment& segment : answer_.segments) {
-      for (const auto& spans : segment.joints) greatest = std::max(greatest, std::abs(spans[order].middle()));
-    }
-    const Vector* limit = order == 0 ? nullptr : move_.parameter(kLimits[order - 1].second);
-    return limit == nullptr ? greatest : std::max(greatest, *std::max_element(limit->begin(), limit->end()));
+    check_given(ends_.back()[k], {given("p1", 1), given("v1", 1), given("a1", 3), given("j1", 6)}, k,
+                "at the end");
   }
 
   void check_segment(std::size_t k, std::size_t i) {
-    const Curve here = joint(k, i), reference = joint(reference_, i), first = joint(k, 0);
+    const Curve &here = starts_[i][k], &reference = starts_[i][reference_], &first = starts_[0][k];
     const Precise rho = precise(answer_.rho[k]);
     const std::size_t orders = move_.type <= 2 ? 3 : move_.type <= 5 ? 4 : 5;
+    const auto name = [&](std::size_t order) { return (order < 4 ? kNames[order] : "snap") + place(k, i); };
     for (std::size_t order = 0; order < orders; ++order) {
-      const std::string name = (order < 4 ? kNames[order] : "snap") + place(k, i);
-      if (!std::isfinite(here[order].middle()) || here[order].width() > width_ * scale(order) + 1e-12)
-        fault("wide " + name);
+      if (!std::isfinite(here[order].middle()) || here[order].width() > width_ * scale_[order] + 1e-12)
+        fault("wide " + name(order));
       const Precise along =
-          order == 0 ? first[0] + rho * (reference[0] - joint(reference_, 0)[0]) : rho * reference[order];
-      if (!here[order].meets(along)) fault("off the line: " + name);
-      if (i > 0 && order + 1 < orders && !here[order].meets(end(k, i - 1)[order]))
-        fault("a jump at the start: " + name);
+          order == 0 ? first[0] + rho * (reference[0] - starts_[0][reference_][0]) : rho * reference[order];
+      if (!here[order].meets(along)) fault("off the line: " + name(order));
+      if (i > 0 && order + 1 < orders && !here[order].meets(ends_[i - 1][k][order]))
+        fault("a jump at the start: " + name(order));
     }
-    if (i >= answer_.braking) check_limits(here, k, i);
   }
 
-  void check_limits(const Curve& here, std::size_t k, std::size_t i) {
-    for (std::size_t order = 1; order <= 4; ++order) {
-      const auto& [lower, upper] = kLimits[order - 1];
-      const Vector* greatest = move_.parameter(upper);
-      if (greatest == nullptr) continue;
-      const Precise range(lower == nullptr ? -(*greatest)[k] : (*move_.parameter(lower))[k], (*greatest)[k]);
-      const Precise nearly = range + (range - range) * Precise(-width_, width_);
-      for (const Precise& t : extrema(here, order, answer_.segments[i].duration)) {
-        const Precise value = at(here, t)[order];
-        if (!value.meets(range))
-          fault(std::string("beyond ") + kLimits[order - 1].second + place(k, i));
-        else if (!value.lies_in(nearly))
-          fault(std::string("perhaps beyond ") + kLimits[order - 1].second + place(k, i));
-      }
+  void check_limits(std::size_t k, std::size_t order) {
+    const auto& [lower, upper] = kLimits[order - 1];
+    const Vector* greatest = move_.parameter(upper);
+    if (greatest == nullptr) return;
+    const Precise range(lower == nullptr ? -(*greatest)[k] : (*move_.parameter(lower))[k], (*greatest)[k]);
+    const Precise nearly = range + (range - range) * Precise(-width_, width_);
+    for (std::size_t i = answer_.braking; i < answer_.segments.size(); ++i) {
+      const auto check = [&](const Precise& x) {
+        if (x.lies_in(range)) return;
+        if (!x.meets(range))
+          fault(std::string("beyond ") + upper + place(k, i));
+        else if (!x.lies_in(nearly))
+          fault(std::string("perhaps beyond ") + upper + place(k, i));
+      };
+      const Curve& here = starts_[i][k];
+      check(here[order]);
+      check(ends_[i][k][order]);
+      for (const double t : extrema(here, order, answer_.segments[i].duration))
+        check(value(here, powers(t), order));
     }
   }
 
@@ -175,6 +198,8 @@ class Check {
   const Answer& answer_;
   double width_;
   std::size_t reference_ = 0;
+  std::vector<std::vector<Curve>> starts_, ends_;  ///< by segment and joint
+  std::array<double, 5> scale_{};
   std::vector<std::string> faults_;
 };
 
@@ -206,15 +231,15 @@ Line line_of(const Move& move, const Answer& answer) {
     line.rho.emplace_back(Number(rho.middle()) / answer.rho[reference].middle());
   const auto& start = answer.segments.front().joints[reference];
   const Segment& last = answer.segments.back();
-  const Curve end = at(curve(last.joints[reference]), precise(last.duration));
+  const Curve end = at(curve(last.joints[reference]), powers(precise(last.duration)));
   // What is given, where that is possible: the middle of an enclosure of a limit may be beyond it.
-  const auto value = [&](const Precise& of, const char* name) -> Number {
+  const auto nearest = [&](const Precise& of, const char* name) -> Number {
     const Vector* given = move.parameter(name);
     if (given == nullptr) return 0;
     return of.meets((*given)[reference]) ? (*given)[reference] : of.middle();
   };
-  line.from = {0, value(precise(start[1]), "v0"), value(precise(start[2]), "a0")};
-  line.to = {Number(end[0].middle()) - start[0].middle(), value(end[1], "v1"), value(end[2], "a1")};
+  line.from = {0, nearest(precise(start[1]), "v0"), nearest(precise(start[2]), "a0")};
+  line.to = {Number(end[0].middle()) - start[0].middle(), nearest(end[1], "v1"), nearest(end[2], "a1")};
   return line;
 }
 
