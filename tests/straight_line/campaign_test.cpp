@@ -10,36 +10,12 @@
 #include <memory>
 
 #include "tests/straight_line/collinear.h"
-#include "tests/straight_line/enumerator.h"
+#include "tests/straight_line/comparison.h"
 #include "tests/straight_line/library.h"
 #include "tests/straight_line/random_move.h"
 
 namespace hcsp::straight_line {
 namespace {
-
-/// The optimum of the line and the states that an answer tells is within its bracket: of numbers that are as
-/// wrong as the enclosures are wide, if not of the middles.
-void expect_fastest(const Move& move, const Answer& answer, std::map<std::string, int>& words) {
-  const Line line = line_of(move, answer);
-  const auto differs_by = [&](const Line& of) {
-    const std::optional<Profile> best = fastest_along(of, move);
-    if (!best) return 1e9;
-    const double T = best->duration().convert_to<double>();
-    return std::max({0.0, answer.bracket.lo - T, T - answer.bracket.hi});
-  };
-  if (const std::optional<Profile> best = fastest_along(line, move)) ++words[best->word];
-  double nearest = differs_by(line);
-  for (int i = 1; i < 243 && nearest > 1e-9; ++i) {  // each number a little more, or less, or the same
-    Line other = line;
-    int digits = i;
-    for (Number* x : {&other.from.w, &other.from.b, &other.to.q, &other.to.w, &other.to.b}) {
-      *x *= 1 + Number(digits % 3 - 1) * 1.5e-12;
-      digits /= 3;
-    }
-    nearest = std::min(nearest, differs_by(other));
-  }
-  EXPECT_LE(nearest, 1e-9) << "bracket [" << answer.bracket.lo << ", " << answer.bracket.hi << "]";
-}
 
 /// Joints that may move in one direction only cannot come back.
 bool is_out_of_reach(const KnownMove& known) {
@@ -94,7 +70,9 @@ void expect_right(const KnownMove& known, const Answer& answer, bool ask_oracle,
   if (answer.status != "solved") return;
   EXPECT_THAT(faults(move, answer), ::testing::IsEmpty());
   if (move.type > 5 || !ask_oracle) return;
-  expect_fastest(move, answer, tally.words);
+  const Comparison with_oracle = compared_with_oracle(move, answer);
+  EXPECT_LE(with_oracle.off, 1e-9) << "bracket [" << answer.bracket.lo << ", " << answer.bracket.hi << "]";
+  ++tally.words[with_oracle.word];
   tally.count_compared(move);
 }
 

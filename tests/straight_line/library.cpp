@@ -62,21 +62,22 @@ void Library::read(Answer& answer) const {
   answer.braking = type_ <= 2 ? 1 : type_ <= 5 ? 3 : 6;
 }
 
-State Library::state_at(double time) const {
-  const auto value = [&](const char* name) {
-    const PolynomialTube& tube = problem_.value(problem_.tube(name));
-    return tube.at(reference_, Interval(std::min(time, tube.instant(tube.phases()).lo()))).mid();
-  };
-  const double start = problem_.value(problem_.tube("p")).gate(reference_, 0).mid();
-  return {Number(value("p")) - start, value("v"), type_ >= 3 ? value("a") : 0};
+double Library::value_at(const char* name, std::size_t joint, double time) const {
+  const PolynomialTube& tube = problem_.value(problem_.tube(name));
+  return tube.at(joint, Interval(std::min(time, tube.instant(tube.phases()).lo()))).mid();
 }
 
+State Library::state_at(double time) const {
+  const double start = problem_.value(problem_.tube("p")).gate(reference_, 0).mid();
+  return {Number(value_at("p", reference_, time)) - start, value_at("v", reference_, time),
+          type_ >= 3 ? value_at("a", reference_, time) : 0};
+}
+
+double Library::jerk_at(double time) const { return value_at("j", reference_, time); }
+
 Vector Library::positions_at(double time) const {
-  const PolynomialTube& tube = problem_.value(problem_.tube("p"));
   Vector positions;
-  for (std::size_t k = 0; k < joints_; ++k) {
-    positions.push_back(tube.at(k, Interval(std::min(time, tube.instant(tube.phases()).lo()))).mid());
-  }
+  for (std::size_t k = 0; k < joints_; ++k) positions.push_back(value_at("p", k, time));
   return positions;
 }
 

@@ -15,11 +15,13 @@ class Library {
   /// Of the last answer, if it was solved: the state of the reference joint's coordinate and the position of
   /// every joint at an instant, in doubles.
   [[nodiscard]] State state_at(double time) const;
+  [[nodiscard]] double jerk_at(double time) const;  ///< of types VI to IX
   [[nodiscard]] Vector positions_at(double time) const;
   [[nodiscard]] CompiledProblem& compiled() { return problem_; }
 
  private:
   [[nodiscard]] Span span(const char* name) const;
+  [[nodiscard]] double value_at(const char* tube, std::size_t joint, double time) const;
   void read(Answer& answer) const;
 
   int type_;

@@ -23,7 +23,29 @@ void tighten(Number& low, Number& high, const Number& rho, double least, double 
   high = std::min(high, std::max(a, b));
 }
 
+Vector negative(Vector values) {
+  for (double& x : values) x = -x;
+  return values;
+}
+
 }  // namespace
+
+Move from_rest(int type, const Vector& p1, const Vector& vmax, const Vector& amax, const Vector& jmax) {
+  const Vector zero(p1.size(), 0);
+  Move move;
+  move.type = type;
+  for (Vector* values : {&move.p0, &move.v0, &move.a0, &move.j0, &move.v1, &move.a1, &move.j1})
+    *values = zero;
+  move.p1 = p1;
+  move.vmax = vmax;
+  move.amax = amax;
+  move.jmax = jmax;
+  move.vmin = negative(vmax);
+  move.amin = negative(amax);
+  move.jmin = negative(jmax);
+  move.dmax = Vector(p1.size(), 1e3);
+  return move;
+}
 
 std::vector<std::string> vectors_of(int type) {
   std::vector<std::string> names{"p0", "v0", "p1"};

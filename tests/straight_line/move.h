@@ -29,6 +29,9 @@ struct Move {
   [[nodiscard]] std::string text() const;
 };
 
+/// From rest at the origin to rest, with these limits both ways.
+Move from_rest(int type, const Vector& p1, const Vector& vmax, const Vector& amax, const Vector& jmax);
+
 /// The names of the vectors that a type has, position first: those that have to be collinear, and the limits.
 std::vector<std::string> vectors_of(int type);
 std::vector<std::string> limits_of(int type);

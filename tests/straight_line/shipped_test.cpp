@@ -13,29 +13,6 @@
 namespace hcsp::straight_line {
 namespace {
 
-Vector negative(Vector values) {
-  for (double& x : values) x = -x;
-  return values;
-}
-
-/// From rest at the origin to rest.
-Move from_rest(int type, const Vector& p1, const Vector& vmax, const Vector& amax, const Vector& jmax) {
-  const Vector zero(p1.size(), 0);
-  Move move;
-  move.type = type;
-  for (Vector* values : {&move.p0, &move.v0, &move.a0, &move.j0, &move.v1, &move.a1, &move.j1})
-    *values = zero;
-  move.p1 = p1;
-  move.vmax = vmax;
-  move.amax = amax;
-  move.jmax = jmax;
-  move.vmin = negative(vmax);
-  move.amin = negative(amax);
-  move.jmin = negative(jmax);
-  move.dmax = Vector(p1.size(), 1e3);
-  return move;
-}
-
 Move first_case(int type) { return from_rest(type, {1, 2, 0.5}, {1, 1, 1}, {2, 2, 2}, {20, 20, 20}); }
 
 void expect_optimum(Library& library, const Move& move, double T) {
