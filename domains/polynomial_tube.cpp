@@ -10,7 +10,7 @@ namespace hcsp {
 namespace {
 
 // Horner's scheme, of the derivative of some order: the same coefficients, moved.
-Interval evaluated(const std::vector<Interval>& coefficients, std::size_t order, const Interval& s) {
+Interval evaluated(std::span<const Interval> coefficients, std::size_t order, const Interval& s) {
   Interval value = coefficients.back();
   for (std::size_t k = coefficients.size() - 1; k > order; --k)
     value = coefficients[k - 1] + s / Interval(static_cast<double>(k - order)) * value;
@@ -19,7 +19,7 @@ Interval evaluated(const std::vector<Interval>& coefficients, std::size_t order,
 
 // The range over an interval: where the slope has one sign its ends tell it; elsewhere the mean value theorem
 // does, and halves of it.
-Interval range(const std::vector<Interval>& coefficients, const Interval& s, int halvings) {
+Interval range(std::span<const Interval> coefficients, const Interval& s, int halvings) {
   const Interval direct = evaluated(coefficients, 0, s);
   if (coefficients.size() == 1 || s.is_point() || !s.is_bounded()) return direct;
   const auto value_at = [&](double at) { return evaluated(coefficients, 0, Interval(at)); };
@@ -36,63 +36,49 @@ Interval range(const std::vector<Interval>& coefficients, const Interval& s, int
 
 PolynomialTube::PolynomialTube(std::vector<Interval> durations, std::vector<Interval> instants,
                                std::vector<Component> components)
-    : durations_(std::move(durations)), instants_(std::move(instants)), components_(std::move(components)) {
-  require(!durations_.empty() && instants_.size() == durations_.size() + 1,
-          "PolynomialTube: {} durations and {} instants", durations_.size(), instants_.size());
-  for (const Component& component : components_) {
-    require(component.coefficients.size() == phases() && component.gates.size() == instants_.size(),
+    : phases_(durations.size()), all_(std::move(durations)) {
+  require(phases_ > 0 && instants.size() == phases_ + 1, "PolynomialTube: {} durations and {} instants",
+          phases_, instants.size());
+  const auto add = [&](const std::vector<Interval>& part) {
+    all_.insert(all_.end(), part.begin(), part.end());
+  };
+  add(instants);
+  for (const Component& component : components) {
+    require(component.coefficients.size() == phases_ && component.gates.size() == instants.size(),
             "PolynomialTube: a component of {} phases and {} gates", component.coefficients.size(),
             component.gates.size());
-    for (const auto& of_phase : component.coefficients)
+    for (const auto& of_phase : component.coefficients) {
       require(!of_phase.empty(), "PolynomialTube: a polynomial without coefficients");
+      starts_.push_back(all_.size());
+      add(of_phase);
+    }
+    starts_.push_back(all_.size());
+    add(component.gates);
   }
   find_emptiness();
 }
 
 void PolynomialTube::find_emptiness() {
-  const auto is_void = [](const std::vector<Interval>& all) {
-    return std::any_of(all.begin(), all.end(), [](const Interval& x) { return x.is_empty(); });
-  };
-  for (Interval& duration : durations_) duration = meet(duration, Interval(0.0, kInfinity));
-  is_empty_ = is_void(durations_) || is_void(instants_);
-  for (const Component& component : components_) {
-    is_empty_ = is_empty_ || is_void(component.gates) ||
-                std::any_of(component.coefficients.begin(), component.coefficients.end(), is_void);
-  }
-}
-
-void PolynomialTube::assign(std::span<const Interval> values) {
-  const auto take = [&](std::vector<Interval>& part) {
-    HCSP_ASSERT(values.size() >= part.size());
-    std::copy_n(values.begin(), part.size(), part.begin());
-    values = values.subspan(part.size());
-  };
-  take(durations_);
-  take(instants_);
-  for (Component& component : components_) {
-    for (auto& of_phase : component.coefficients) take(of_phase);
-    take(component.gates);
-  }
-  HCSP_ASSERT(values.empty());
-  find_emptiness();
+  for (std::size_t i = 0; i < phases_; ++i) all_[i] = meet(all_[i], Interval(0.0, kInfinity));
+  is_empty_ = std::any_of(all_.begin(), all_.end(), [](const Interval& x) { return x.is_empty(); });
 }
 
 std::size_t PolynomialTube::degree() const {
   std::size_t highest = 0;
-  for (const Component& component : components_) {
-    for (const auto& of_phase : component.coefficients) highest = std::max(highest, of_phase.size() - 1);
+  for (std::size_t c = 0; c < dim(); ++c) {
+    for (std::size_t i = 0; i < phases_; ++i) highest = std::max(highest, coefficients(c, i).size() - 1);
   }
   return highest;
 }
 
 Interval PolynomialTube::values(std::size_t c, std::size_t phase, const Interval& local_times) const {
   constexpr int kHalvings = 5;
-  return range(components_[c].coefficients[phase], local_times, kHalvings);
+  return range(coefficients(c, phase), local_times, kHalvings);
 }
 
 Interval PolynomialTube::slice(std::size_t c, std::size_t phase) const {
   if (is_empty_) return Interval::empty();
-  return values(c, phase, Interval(0.0, durations_[phase].hi()));
+  return values(c, phase, Interval(0.0, duration(phase).hi()));
 }
 
 // In which phase an instant lies is not known where gates are not.
@@ -100,8 +86,8 @@ Interval PolynomialTube::at(std::size_t c, const Interval& instants) const {
   Interval all = Interval::empty();
   if (is_empty_) return all;
   for (std::size_t i = 0; i < phases(); ++i) {
-    if (meet(instants, join(instants_[i], instants_[i + 1])).is_empty()) continue;
-    const Interval local = meet(instants - instants_[i], Interval(0.0, durations_[i].hi()));
+    if (meet(instants, join(instant(i), instant(i + 1))).is_empty()) continue;
+    const Interval local = meet(instants - instant(i), Interval(0.0, duration(i).hi()));
     if (!local.is_empty()) all = join(all, values(c, i, local));
   }
   return all;
@@ -123,7 +109,7 @@ bool leq(const PolynomialTube& a, const PolynomialTube& b) {
     for (std::size_t c = 0; c < a.dim(); ++c) {
       is_within = is_within && leq(a.gate(c, k), b.gate(c, k));
       if (k == a.phases()) continue;
-      const auto &p = a.coefficients(c, k), &q = b.coefficients(c, k);
+      const auto p = a.coefficients(c, k), q = b.coefficients(c, k);
       is_within = is_within && p.size() == q.size() && std::equal(p.begin(), p.end(), q.begin(), lies_in);
     }
     if (!is_within) return false;

@@ -24,22 +24,27 @@ class PolynomialTube {
   PolynomialTube(std::vector<Interval> durations, std::vector<Interval> instants,
                  std::vector<Component> components);
 
-  /// Takes other intervals, as many: the durations, the instants, then component by component the
-  /// coefficients phase by phase and the gates. Allocates nothing.
-  void assign(std::span<const Interval> values);
+  /// Takes other intervals, as many, the i-th of them value_of(i): the durations, the instants, then
+  /// component by component the coefficients phase by phase and the gates. Allocates nothing.
+  template <class ValueOf>
+  void assign(ValueOf value_of) {
+    for (std::size_t i = 0; i < all_.size(); ++i) all_[i] = value_of(i);
+    find_emptiness();
+  }
 
-  [[nodiscard]] std::size_t dim() const { return components_.size(); }
-  [[nodiscard]] std::size_t phases() const { return durations_.size(); }
+  [[nodiscard]] std::size_t dim() const { return starts_.size() / (phases_ + 1); }
+  [[nodiscard]] std::size_t phases() const { return phases_; }
   [[nodiscard]] bool is_empty() const { return is_empty_; }
-  [[nodiscard]] const Interval& duration(std::size_t phase) const { return durations_[phase]; }
-  [[nodiscard]] const Interval& instant(std::size_t gate) const { return instants_[gate]; }
-  [[nodiscard]] const std::vector<Interval>& coefficients(std::size_t c, std::size_t phase) const {
-    return components_[c].coefficients[phase];
+  [[nodiscard]] const Interval& duration(std::size_t phase) const { return all_[phase]; }
+  [[nodiscard]] const Interval& instant(std::size_t gate) const { return all_[phases_ + gate]; }
+  [[nodiscard]] std::span<const Interval> coefficients(std::size_t c, std::size_t phase) const {
+    const std::size_t place = c * (phases_ + 1) + phase;
+    return std::span(all_).subspan(starts_[place], starts_[place + 1] - starts_[place]);
   }
   [[nodiscard]] std::size_t degree() const;
 
   [[nodiscard]] const Interval& gate(std::size_t c, std::size_t gate) const {
-    return components_[c].gates[gate];
+    return all_[starts_[c * (phases_ + 1) + phases_] + gate];
   }
   /// An enclosure of the values during a phase, its ends included.
   [[nodiscard]] Interval slice(std::size_t c, std::size_t phase) const;
@@ -53,8 +58,9 @@ class PolynomialTube {
   void find_emptiness();
   [[nodiscard]] Interval values(std::size_t c, std::size_t phase, const Interval& local_times) const;
 
-  std::vector<Interval> durations_, instants_;
-  std::vector<Component> components_;
+  std::size_t phases_;
+  std::vector<Interval> all_;        // in the order of assign()
+  std::vector<std::size_t> starts_;  // by component and phase, of the coefficients; then of the gates
   bool is_empty_ = false;
 };
 

@@ -21,12 +21,12 @@ struct Ranked {
   Code::Stage stage;
 };
 
-std::vector<Ranked> ranked_requirements(Facts& facts, const View& view) {
-  constexpr std::size_t kCheap = 6;
+std::vector<Ranked> ranked_requirements(Facts& facts, const View& view, Purpose purpose) {
+  const std::size_t cheap = purpose == Purpose::search ? 6 : 0;
   std::vector<Ranked> ranked;
   for (const Requirement& own : view.requirements) {
     const std::size_t cost = facts.size(own.root).open;
-    ranked.push_back({&own, cost, cost <= kCheap ? Code::cheap : own.is_equation() ? Code::main : Code::all});
+    ranked.push_back({&own, cost, cost <= cheap ? Code::cheap : own.is_equation() ? Code::main : Code::all});
   }
   std::stable_sort(ranked.begin(), ranked.end(),
                    [](const Ranked& a, const Ranked& b) { return a.cost < b.cost; });
@@ -56,7 +56,7 @@ Register Prefix::place(const Dag& dag, NodeId node) {
   return places_[node] = size_++;
 }
 
-Code::Code(Dag& dag, Prefix& prefix, Facts& facts, const View& view, std::size_t objectives)
+Code::Code(Dag& dag, Prefix& prefix, Facts& facts, const View& view, std::size_t objectives, Purpose purpose)
     : core_(view.core.size()), registers_(static_cast<Register>(view.core.size())) {
   require(core_ <= 64, "compile: {} unknowns are left where 64 are allowed", core_);
   for (Register i = 0; i < core_; ++i) {
@@ -68,7 +68,7 @@ Code::Code(Dag& dag, Prefix& prefix, Facts& facts, const View& view, std::size_t
         reg,     own.wanted, own.strict, own.is_equation(), is_boolean(dag[own.root].op), own.is_implied,
         own.name};
   };
-  const std::vector<Ranked> ranked = ranked_requirements(facts, view);
+  const std::vector<Ranked> ranked = ranked_requirements(facts, view, purpose);
   for (const Stage stage : {cheap, main, all}) {
     for (const Ranked& own : ranked) {
       if (own.stage != stage) continue;
@@ -93,8 +93,9 @@ Code::Code(Dag& dag, Prefix& prefix, Facts& facts, const View& view, std::size_t
   for (const Definition& own : view.definitions)
     definitions.push_back(place(dag, prefix, facts, own.value, rest));
   for (std::size_t i = objectives; i < view.wanted.size(); ++i)
-    wanted.push_back(place(dag, prefix, facts, view.wanted[i], rest));
+    wanted.push_back(place(dag, prefix, facts, view.wanted[i], further));
   reorder(rest, 0, op_of);
+  reorder(further, 0, op_of);
 }
 
 Register Code::place(Dag& dag, Prefix& prefix, Facts& facts, NodeId node, std::vector<Instruction>& to) {
@@ -246,7 +247,7 @@ void Code::place_after(Register prefix_size) {
   const auto fix = [&](Register& reg) {
     if ((reg & kOwn) != 0) reg = (reg & ~kOwn) + prefix_size;
   };
-  for (auto* code : {&values, &slopes, &real_path, &rest}) {
+  for (auto* code : {&values, &slopes, &real_path, &rest, &further}) {
     for (Instruction& at : *code) {
       for (Register* reg : {&at.y, &at.a, &at.b, &at.c}) fix(*reg);
     }

@@ -86,7 +86,7 @@ class Code {
  public:
   /// Adds derivatives to the graph, and what is given to the prefix. Throws std::invalid_argument where
   /// the core has more than 64 facts, or an equation has a term without a derivative.
-  Code(Dag& dag, Prefix& prefix, Facts& facts, const View& view, std::size_t objectives);
+  Code(Dag& dag, Prefix& prefix, Facts& facts, const View& view, std::size_t objectives, Purpose purpose);
 
   /// To be called when the prefix has all that it will hold: the own registers follow it.
   void place_after(Register prefix_size);
@@ -95,7 +95,8 @@ class Code {
   [[nodiscard]] Register first() const { return first_; }  ///< the register of the core's first unknown
   [[nodiscard]] Register registers() const { return registers_; }  ///< of its own
 
-  /// Tests and values come in stages: what costs next to nothing; equations and the objective; the rest.
+  /// Tests and values come in stages: what costs next to nothing, for what a search can refute by it;
+  /// equations and the objective; the rest.
   enum Stage : std::size_t { cheap, main, all };
   /// Where they end.
   struct End {
@@ -106,7 +107,8 @@ class Code {
   std::vector<Instruction> slopes;     ///< what chain rules need besides
   std::vector<ChainRule> chain;        ///< along `values`
   std::vector<Instruction> real_path;  ///< those of `values` that tests of numbers need, not Booleans' parts
-  std::vector<Instruction> rest;       ///< what definitions and further wanted expressions need besides
+  std::vector<Instruction> rest;       ///< what definitions need besides
+  std::vector<Instruction> further;    ///< what further wanted expressions need besides all that
   std::vector<Test> tests;
   std::vector<Test> conditions;  ///< of the prefix alone
   /// What of the prefix is evaluated for it alone; the first `quick` conditions do not need it. And all that

@@ -32,8 +32,7 @@ struct CompiledProblem::Impl {
   std::vector<std::uint8_t> is_set;      // by parameter
   std::size_t invalid_count = 0;
   std::vector<Interval> values;   // by variable of the problem
-  std::vector<Interval> outputs;  // of the options, then what tells of tubes
-  std::size_t own_outputs;
+  std::vector<Interval> outputs;  // of the options
   OnlineStatus status = OnlineStatus::undecided;
   Interval objective = Interval::empty();
   std::string_view reason;
@@ -48,8 +47,7 @@ struct CompiledProblem::Impl {
         is_invalid(parameters.size()),
         is_set(parameters.size()),
         values(compiled.variables),
-        outputs(compiled.wanted - (compiled.has_objective ? 1 : 0)),
-        own_outputs(options.outputs.size()) {}
+        outputs(options.outputs.size()) {}
 
   template <class Number>
   bool set(Parameter parameter, std::span<const Number> given);
@@ -112,15 +110,17 @@ void CompiledProblem::Impl::read_solution(const online::Finding& finding) {
   const online::CompiledCase& of = compiled.cases[finding.best_case];
   machine.evaluate(of.proof, search.solution().first(of.proof.core()));
   machine.evaluate_rest(of.proof);
+  machine.evaluate_further(of.proof);
   const std::vector<online::Source>& sources = compiled.sources[finding.best_case];
   for (std::size_t v = 0; v < values.size(); ++v) {
     const online::Source& source = sources[v];
     values[v] = source.is_register ? machine.value(source.reg) : source.value;
   }
   const std::size_t first = compiled.has_objective ? 1 : 0;
-  for (std::size_t i = 0; i < outputs.size(); ++i) outputs[i] = machine.value(of.proof.wanted[first + i]);
-  for (online::WantedTube& wanted : compiled.tubes)
-    wanted.tube.assign(std::span(outputs).subspan(wanted.first - first, wanted.size));
+  const auto wanted_value = [&](std::size_t i) { return machine.value(of.proof.wanted[i]); };
+  for (std::size_t i = 0; i < outputs.size(); ++i) outputs[i] = wanted_value(first + i);
+  for (online::WantedTube& own : compiled.tubes)
+    own.tube.assign([&](std::size_t i) { return wanted_value(own.first + i); });
 }
 
 CompiledProblem::CompiledProblem(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
@@ -174,7 +174,7 @@ const PolynomialTube& CompiledProblem::value(Tube tube) const noexcept {
 }
 std::span<const Interval> CompiledProblem::outputs() const noexcept {
   if (!impl_->is_found) return {};
-  return std::span<const Interval>(impl_->outputs).first(impl_->own_outputs);
+  return impl_->outputs;
 }
 std::string_view CompiledProblem::reason() const noexcept { return impl_->reason; }
 std::size_t CompiledProblem::boxes() const noexcept { return impl_->search.boxes(); }

@@ -97,12 +97,13 @@ Compiled compile_cases(const Question& question, std::size_t most_cases) {
     const Pair& pair = views.emplace_back(
         Pair{eliminate(dag, facts, first, one, unknowns, Purpose::search, question.name_of),
              eliminate(dag, facts, first, one, unknowns, Purpose::proof, question.name_of)});
-    compiled.cases.push_back({Code(dag, compiled.prefix, facts, pair.search, whole.objectives),
-                              Code(dag, compiled.prefix, facts, pair.proof, whole.objectives),
-                              domains_of(pair.search, question, false),
-                              domains_of(pair.proof, question, true),
-                              {},
-                              {}});
+    compiled.cases.push_back(
+        {Code(dag, compiled.prefix, facts, pair.search, whole.objectives, Purpose::search),
+         Code(dag, compiled.prefix, facts, pair.proof, whole.objectives, Purpose::proof),
+         domains_of(pair.search, question, false),
+         domains_of(pair.proof, question, true),
+         {},
+         {}});
   }
   for (std::size_t i = 0; i < cases.size(); ++i) {
     CompiledCase& own = compiled.cases[i];

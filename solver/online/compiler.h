@@ -22,7 +22,7 @@ struct Named {
 struct WantedTube {
   std::string name;
   PolynomialTube tube;
-  std::size_t first, size;
+  std::size_t first;
 };
 
 /// What is asked of a problem: all that compilation needs to know of it.

@@ -78,7 +78,7 @@ std::vector<Register> registers_of(const std::vector<Test>& tests) {
 
 std::vector<Register> registers_of(const Code& code) {
   std::vector<Register> registers = registers_of(code.conditions);
-  for (const auto* part : {&code.values, &code.slopes, &code.rest}) {
+  for (const auto* part : {&code.values, &code.slopes, &code.rest, &code.further}) {
     for (const Instruction& at : *part) registers.insert(registers.end(), {at.a, at.b, at.c});
   }
   for (const ChainRule& rule : code.chain) registers.insert(registers.end(), {rule.sa, rule.sb});

@@ -46,8 +46,9 @@ class Machine {
   /// The same as far as a stage, or as one with a test that holds nowhere in the box: then false, and
   /// refuted_by() is its name.
   bool evaluate_while_possible(const Code& code, std::span<const Interval> box, Code::Stage last);
-  /// After evaluate(): what definitions and further expressions are.
+  /// After evaluate(): what definitions are; after that, what further wanted expressions are.
   void evaluate_rest(const Code& code) { run(code.rest); }
+  void evaluate_further(const Code& code) { run(code.further); }
   /// After evaluate(): derivatives of what a stage needs, with regard to the unknowns of a mask; those of
   /// undecided kinks are hulls.
   void differentiate(const Code& code, std::uint64_t active, Code::Stage last = Code::all);

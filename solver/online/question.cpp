@@ -54,7 +54,7 @@ Question question_of(Problem& problem, const std::optional<Expr>& objective,
     if (impl.kinds[id] != DomainKind::polynomial || impl.graph.variable(id).hidden()) continue;
     const std::vector<NodeId> all = expressions_of(*impl.phases, id);
     question.tubes.push_back(
-        {impl.graph.variable(id).name(), unknown_tube(*impl.phases, id), question.wanted.size(), all.size()});
+        {impl.graph.variable(id).name(), unknown_tube(*impl.phases, id), question.wanted.size()});
     question.wanted.insert(question.wanted.end(), all.begin(), all.end());
   }
   for (const auto& stated : impl.relations) {

@@ -36,10 +36,8 @@ PolynomialTube TubeEnclosure::on(const std::function<Interval(VariableId)>& valu
   for (std::uint32_t i = 0; i < program_.inputs().size(); ++i)
     evaluation.set(i, value_of(program_.inputs()[i].variable));
   evaluation.forward();
-  std::vector<Interval> values;
-  for (std::size_t i = 0; i < program_.roots(); ++i) values.push_back(evaluation.get(program_.root(i)));
   PolynomialTube enclosure = unknown_;
-  enclosure.assign(values);
+  enclosure.assign([&](std::size_t i) { return evaluation.get(program_.root(i)); });
   return enclosure;
 }
 

@@ -27,7 +27,7 @@ std::vector<Motion> motions_of(const Result& result) {
 }
 
 // Those of powers of s; the tube has those of s^k/k!.
-std::vector<Interval> powers(const std::vector<Interval>& coefficients) {
+std::vector<Interval> powers(std::span<const Interval> coefficients) {
   std::vector<Interval> all;
   double factorial = 1.0;
   for (std::size_t k = 0; k < coefficients.size(); ++k) {
