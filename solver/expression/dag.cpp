@@ -2,6 +2,7 @@
 #include "solver/expression/dag.h"
 
 #include <algorithm>
+#include <bit>
 #include <unordered_set>
 
 #include "domains/check.h"
@@ -9,16 +10,81 @@
 
 namespace hcsp {
 
+namespace {
+
+bool is_same(const DagNode& a, const DagNode& b) {
+  return a.op == b.op && a.operands == b.operands && a.value.lo() == b.value.lo() &&
+         a.value.hi() == b.value.hi() && a.input == b.input;
+}
+
+std::size_t hash_of(const DagNode& node) {
+  std::uint64_t hash = static_cast<std::uint64_t>(node.op);
+  const auto mix = [&](std::uint64_t x) {
+    hash = (hash ^ x) * 0x9e3779b97f4a7c15U;
+    hash ^= hash >> 32;
+  };
+  for (const NodeId operand : node.operands) mix(operand);
+  if (node.op == Op::constant || node.op == Op::input) {
+    for (const double bound : {node.value.lo(), node.value.hi()})
+      mix(bound == 0.0 ? 0 : std::bit_cast<std::uint64_t>(bound));  // 0 and -0 are one number
+    mix(static_cast<std::uint64_t>(node.input.kind));
+    mix(node.input.variable);
+    mix(node.input.component);
+    mix(node.input.gate);
+  }
+  return hash;
+}
+
+bool may_be_undefined(Op op) {
+  switch (op) {
+    case Op::div:
+    case Op::sqrt:
+    case Op::log:
+    case Op::tan:
+    case Op::asin:
+    case Op::acos:
+    case Op::atan2:
+    case Op::pown:
+    case Op::pow:
+    case Op::root:
+      return true;
+    default:
+      return false;
+  }
+}
+
+}  // namespace
+
+// Where a node is, or would be.
+NodeId& Dag::slot_of(const DagNode& node) {
+  const std::size_t mask = slots_.size() - 1;
+  std::size_t at = hash_of(node) & mask;
+  while (slots_[at] != 0 && !is_same(nodes_[slots_[at] - 1], node)) at = (at + 1) & mask;
+  return slots_[at];
+}
+
+// At most half of the table is taken.
+void Dag::make_room() {
+  constexpr std::size_t kFirst = 256;
+  if (2 * (nodes_.size() + 1) <= slots_.size()) return;
+  slots_.assign(std::max(kFirst, 2 * slots_.size()), 0);
+  for (std::size_t id = 0; id < nodes_.size(); ++id) slot_of(nodes_[id]) = static_cast<NodeId>(id + 1);
+}
+
 NodeId Dag::intern(const DagNode& node) {
-  const Key key{node.op, node.operands, node.value.lo(), node.value.hi(), node.input};
-  const auto [place, added] = known_.try_emplace(key, static_cast<NodeId>(nodes_.size()));
-  if (added) nodes_.push_back(node);
-  return place->second;
+  make_room();
+  NodeId& slot = slot_of(node);
+  if (slot == 0) {
+    nodes_.push_back(node);
+    slot = static_cast<NodeId>(nodes_.size());
+  }
+  return slot - 1;
 }
 
 NodeId Dag::constant(const Interval& value, std::uint64_t origin) {
   DagNode node;
   node.value = value;
+  node.is_total = !value.is_empty();
   // A number that is known exactly is what it is, wherever it comes from.
   if (!value.is_point())
     node.input = {{}, 0, static_cast<std::uint32_t>(origin), static_cast<std::uint32_t>(origin >> 32)};
@@ -28,6 +94,7 @@ NodeId Dag::constant(const Interval& value, std::uint64_t origin) {
 NodeId Dag::own_constant(const Interval& value) {
   DagNode node;
   node.value = value;
+  node.is_total = !value.is_empty();
   node.input = {{}, 1, ++own_constants_, 0};  // only to tell it from others
   return intern(node);
 }
@@ -35,6 +102,7 @@ NodeId Dag::own_constant(const Interval& value) {
 NodeId Dag::input(const Input& input) {
   DagNode node;
   node.op = Op::input;
+  node.is_total = true;
   node.input = input;
   return intern(node);
 }
@@ -52,6 +120,9 @@ NodeId Dag::apply(Op op, std::array<NodeId, 3> operands, int count) {
   DagNode node;
   node.op = op;
   node.operands = operands;
+  node.is_total = !may_be_undefined(op);
+  for (int k = 0; k < count; ++k)
+    node.is_total = node.is_total && nodes_[operands[static_cast<std::size_t>(k)]].is_total;
   return intern(node);
 }
 

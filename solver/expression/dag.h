@@ -6,7 +6,6 @@
 
 #include <array>
 #include <cstdint>
-#include <map>
 #include <vector>
 
 #include "domains/interval/interval.h"
@@ -79,8 +78,9 @@ struct Input {
 struct DagNode {
   Op op = Op::constant;
   std::array<NodeId, 3> operands{};
-  Interval value;  // of a constant
-  Input input;     // of an input
+  bool is_total = false;  // whether it has a value whatever values the leaves below it have
+  Interval value;         // of a constant
+  Input input;            // of an input
 };
 
 class Dag {
@@ -100,11 +100,12 @@ class Dag {
   [[nodiscard]] std::size_t size() const { return nodes_.size(); }
 
  private:
-  using Key = std::tuple<Op, std::array<NodeId, 3>, double, double, Input>;
   NodeId intern(const DagNode& node);
+  NodeId& slot_of(const DagNode& node);
+  void make_room();
 
   std::vector<DagNode> nodes_;
-  std::map<Key, NodeId> known_;
+  std::vector<NodeId> slots_;  // an open hash table of the nodes, each plus 1; 0 where there is none
   std::uint32_t own_constants_ = 0;
 };
 

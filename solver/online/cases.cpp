@@ -23,8 +23,10 @@ class Splitter {
     for (const Statement& statement : one.statements) {
       if (!add_conjuncts(statement, flat.statements)) return;
     }
+    if (const auto next = next_choice(flat, true)) return split_by_alternatives(flat, *next);
+    if (substitute_givens(flat)) return split(flat);
     if (const auto whole = next_whole(flat)) return split_by_values(flat, *whole);
-    if (const auto next = next_choice(flat)) return split_by_alternatives(flat, *next);
+    if (const auto next = next_choice(flat, false)) return split_by_alternatives(flat, *next);
     require(cases_.size() < most_, "compile: the problem has more than {} cases", most_);
     cases_.push_back(std::move(flat));
   }
@@ -77,19 +79,63 @@ class Splitter {
       Case chosen = one;
       chosen.chosen[whole] = value;
       for (Statement& statement : chosen.statements) statement.relation = rewrite(statement.relation);
-      for (NodeId& node : chosen.wanted) node = rewrite(node);
+      for (auto* nodes : {&chosen.wanted, &chosen.dropped}) {
+        for (NodeId& node : *nodes) node = rewrite(node);
+      }
       split(chosen);
     }
   }
 
-  // Implied alternatives first: they are written to tell cases apart.
-  std::optional<std::size_t> next_choice(const Case& one) {
+  // Implied alternatives first: they are written to tell cases apart. Or those only that parameters decide,
+  // one of them alone.
+  std::optional<std::size_t> next_choice(const Case& one, bool is_by_givens) {
     std::optional<std::size_t> next;
+    const auto is_choice = [&](NodeId relation) {
+      const std::vector<NodeId> all = alternatives_of(relation);
+      const auto is_given = [&](NodeId alternative) { return facts_.is_given(alternative); };
+      return is_by_givens ? std::any_of(all.begin(), all.end(), is_given) : !all.empty();
+    };
     for (std::size_t i = 0; i < one.statements.size(); ++i) {
       const bool is_better = !next || (one.statements[i].is_implied && !one.statements[*next].is_implied);
-      if (is_better && !alternatives_of(one.statements[i].relation).empty()) next = i;
+      if (is_better && is_choice(one.statements[i].relation)) next = i;
     }
     return next;
+  }
+
+  // Once for all cases that follow. False where there was nothing to do.
+  bool substitute_givens(Case& one) {
+    Rewriter rewrite(dag_, dag_, &one.dropped);
+    const std::size_t before = one.definitions.size();
+    std::erase_if(one.statements, [&](const Statement& statement) {
+      const auto definition = statement.is_implied ? std::nullopt : given_by(statement.relation);
+      if (!definition) return false;
+      const bool is_new =
+          std::none_of(one.definitions.begin(), one.definitions.end(),
+                       [&](const auto& known) { return known.variable == definition->variable; });
+      if (!is_new) return false;
+      rewrite.replace(dag_.input(definition->variable), definition->value);
+      one.definitions.push_back(*definition);
+      return true;
+    });
+    if (one.definitions.size() == before) return false;
+    for (Statement& statement : one.statements) statement.relation = rewrite(statement.relation);
+    for (NodeId& node : one.wanted) node = rewrite(node);
+    return true;
+  }
+
+  // Where a relation is: unknown == what parameters decide.
+  std::optional<Definition> given_by(NodeId relation) {
+    const DagNode& equation = dag_[relation];
+    if (equation.op != Op::equal) return {};
+    for (const std::size_t side : {std::size_t{0}, std::size_t{1}}) {
+      const DagNode& own = dag_[equation.operands[side]];
+      const NodeId value = equation.operands[1 - side];
+      const bool is_unknown = own.op == Op::input && unknowns_.is_unknown(own.input);
+      if (is_unknown && !unknowns_.whole.contains(own.input) && facts_.is_given(value) &&
+          !is_boolean(dag_[value].op))
+        return Definition{own.input, value};
+    }
+    return {};
   }
 
   // An alternative that is stated anyway is the one to take; those that contradict what is stated are none.

@@ -19,11 +19,21 @@ struct Statement {
   bool is_implied;
 };
 
+/// variable == value.
+struct Definition {
+  Input variable;
+  NodeId value;
+};
+
 struct Case {
   std::vector<Statement> statements;  ///< all hold; none is a conjunction
   std::vector<NodeId> wanted;         ///< the objective, and other expressions, in this case
   std::size_t objectives = 0;         ///< 1 where there is an objective; search wants nothing else
   std::map<Input, double> chosen;     ///< the whole numbers' values
+  /// Of unknowns that constraints equate to what parameters decide: nothing else speaks of them any more. And
+  /// what has to be defined for that.
+  std::vector<Definition> definitions;
+  std::vector<NodeId> dropped;
 };
 
 /// Every solution is in one of the cases at least. Throws std::invalid_argument where they are more than

@@ -39,28 +39,53 @@ Prefix::Prefix(const std::vector<Input>& parameters) : size_(static_cast<Registe
   for (Register i = 0; i < parameters.size(); ++i) parameters_.emplace(parameters[i], i);
 }
 
-Register Prefix::place(const Dag& dag, NodeId node) {
-  if (const auto known = places_.find(node); known != places_.end()) return known->second;
-  const DagNode of = dag[node];
-  if (of.op == Op::input) return places_[node] = parameters_.at(of.input);
-  if (of.op == Op::constant) {
-    constants_.emplace_back(size_, of.value);
-    return places_[node] = size_++;
+NodeId Prefix::copy(const Dag& from, NodeId node, NodeMap& copies) {
+  if (const NodeId* known = copies.find(node)) return *known;
+  const DagNode& of = from[node];
+  NodeId own{};
+  if (of.op == Op::input) {
+    own = dag_.input(of.input);
+  } else if (of.op == Op::constant) {
+    own = copy_constant(of, dag_);
+  } else {
+    const int arity = operator_entry(of.op).arity;
+    std::array<NodeId, 3> operands{};
+    for (int k = 0; k < arity; ++k) {
+      const auto i = static_cast<std::size_t>(k);
+      operands[i] = copy(from, of.operands[i], copies);
+    }
+    own = dag_.apply(of.op, operands, arity);
   }
-  const int arity = operator_entry(of.op).arity;
-  std::array<Register, 3> operands{};
-  for (int k = 0; k < 3; ++k)
-    operands[static_cast<std::size_t>(k)] =
-        place(dag, of.operands[static_cast<std::size_t>(k < arity ? k : 0)]);
-  code_.push_back({of.op, static_cast<std::uint8_t>(arity), size_, operands[0], operands[1], operands[2]});
-  return places_[node] = size_++;
+  copies.set(node, own);
+  return own;
+}
+
+Register Prefix::place(const Dag& from, NodeId node, NodeMap& copies) {
+  const NodeId own = copy(from, node, copies);
+  for (auto id = static_cast<NodeId>(places_.size()); id < dag_.size(); ++id) {
+    const DagNode& of = dag_[id];
+    if (of.op == Op::input) {
+      places_.push_back(parameters_.at(of.input));
+      continue;
+    }
+    const int arity = operator_entry(of.op).arity;
+    const auto operand = [&](int k) {
+      return places_[of.operands[static_cast<std::size_t>(k < arity ? k : 0)]];
+    };
+    if (arity == 0)
+      constants_.emplace_back(size_, of.value);
+    else
+      code_.push_back({of.op, static_cast<std::uint8_t>(arity), size_, operand(0), operand(1), operand(2)});
+    places_.push_back(size_++);
+  }
+  return places_[own];
 }
 
 Code::Code(Dag& dag, Prefix& prefix, Facts& facts, const View& view, std::size_t objectives, Purpose purpose)
     : core_(view.core.size()), registers_(static_cast<Register>(view.core.size())) {
   require(core_ <= 64, "compile: {} unknowns are left where 64 are allowed", core_);
   for (Register i = 0; i < core_; ++i) {
-    places_[dag.input(view.core[i])] = kOwn | i;
+    places_.set(dag.input(view.core[i]), kOwn | i);
     depends.push_back(std::uint64_t{1} << i);
   }
   const auto test = [&](const Requirement& own, Register reg) {
@@ -79,13 +104,14 @@ Code::Code(Dag& dag, Prefix& prefix, Facts& facts, const View& view, std::size_t
     end_stage(stage);
   }
   find_real_path();
-  for (const Requirement& own : view.conditions) conditions.push_back(test(own, prefix.place(dag, own.root)));
-  for (const NodeId factor : view.nonzero) nonzero.push_back(prefix.place(dag, factor));
+  for (const Requirement& own : view.conditions)
+    conditions.push_back(test(own, prefix.place(dag, own.root, givens_)));
+  for (const NodeId factor : view.nonzero) nonzero.push_back(prefix.place(dag, factor, givens_));
   for (const Bound& bound : view.bounds) {
     const auto v = std::find(view.core.begin(), view.core.end(), bound.variable);
     if (v != view.core.end())
-      bounds.push_back(
-          {static_cast<std::size_t>(v - view.core.begin()), prefix.place(dag, bound.value), bound.is_upper});
+      bounds.push_back({static_cast<std::size_t>(v - view.core.begin()),
+                        prefix.place(dag, bound.value, givens_), bound.is_upper});
   }
   const auto of_values = places_;
   add_chain(dag, prefix, facts);
@@ -99,8 +125,12 @@ Code::Code(Dag& dag, Prefix& prefix, Facts& facts, const View& view, std::size_t
 }
 
 Register Code::place(Dag& dag, Prefix& prefix, Facts& facts, NodeId node, std::vector<Instruction>& to) {
-  if (const auto known = places_.find(node); known != places_.end()) return known->second;
-  if (facts.is_given(node)) return places_[node] = prefix.place(dag, node);
+  if (const Register* known = places_.find(node)) return *known;
+  const auto put = [&](Register reg) {
+    places_.set(node, reg);
+    return reg;
+  };
+  if (facts.is_given(node)) return put(prefix.place(dag, node, givens_));
   const DagNode of = dag[node];
   const int arity = operator_entry(of.op).arity;
   std::array<Register, 3> operands{};
@@ -113,7 +143,7 @@ Register Code::place(Dag& dag, Prefix& prefix, Facts& facts, NodeId node, std::v
   depends.push_back(depends_on);
   to.push_back({of.op, static_cast<std::uint8_t>(arity), y, operands[0], operands[1], operands[2]});
   nodes_.push_back(node);
-  return places_[node] = y;
+  return put(y);
 }
 
 // The values of a stage in a good order.

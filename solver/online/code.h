@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "solver/online/elimination.h"
+#include "solver/online/node_map.h"
 
 namespace hcsp::online {
 
@@ -49,15 +50,19 @@ class Prefix {
  public:
   explicit Prefix(const std::vector<Input>& parameters);
 
-  /// The register of a node of parameters and constants, which is computed from then on.
-  Register place(const Dag& dag, NodeId node);
+  /// The register of a node of parameters and constants, which is computed from then on. `copies`: what the
+  /// prefix has of that graph; to be passed on.
+  Register place(const Dag& from, NodeId node, NodeMap& copies);
   [[nodiscard]] Register size() const { return size_; }
   [[nodiscard]] const std::vector<Instruction>& code() const { return code_; }
   /// Constants and their registers; parameter i is in register i.
   [[nodiscard]] const std::vector<std::pair<Register, Interval>>& constants() const { return constants_; }
 
  private:
-  std::map<NodeId, Register> places_;
+  NodeId copy(const Dag& from, NodeId node, NodeMap& copies);
+
+  Dag dag_;                       // of all that is computed, whatever graphs it came from
+  std::vector<Register> places_;  // by node of it
   std::map<Input, Register> parameters_;
   Register size_;
   std::vector<Instruction> code_;
@@ -134,7 +139,7 @@ class Code {
 
   std::size_t core_;
   Register first_ = 0, registers_;
-  std::map<NodeId, Register> places_;
+  NodeMap places_, givens_;    // of nodes; of the prefix
   std::vector<NodeId> nodes_;  // by instruction of `values`
   std::map<std::vector<std::pair<NodeId, int>>, std::uint32_t> surface_of_;
 };

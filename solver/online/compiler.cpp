@@ -44,7 +44,6 @@ Compiled::Compiled(const Question& question)
     : prefix(question.parameters),
       followers(*question.dag, question.followed, places_of(question.parameters)),
       has_objective(question.has_objective),
-      wanted(question.wanted.size()),
       names(question.names),
       parameter_names(question.parameter_names),
       parameter_values(question.parameter_values),
@@ -77,9 +76,24 @@ std::size_t Compiled::most_surfaces() const {
   return most(cases, [](const Code& code) -> std::size_t { return code.surfaces; });
 }
 
+namespace {
+
+Case copy_of(const Case& one, const Dag& from, Dag& to) {
+  Rewriter import(from, to);
+  Case copy = one;
+  for (Statement& statement : copy.statements) statement.relation = import(statement.relation);
+  for (Definition& definition : copy.definitions) definition.value = import(definition.value);
+  for (auto* nodes : {&copy.wanted, &copy.dropped}) {
+    for (NodeId& node : *nodes) node = import(node);
+  }
+  return copy;
+}
+
+}  // namespace
+
 Compiled compile_cases(const Question& question, std::size_t most_cases) {
   Compiled compiled(question);
-  Dag& dag = compiled.dag;
+  Dag dag;
   Rewriter import(*question.dag, dag);
   Case whole;
   for (const Statement& own : question.statements)
@@ -90,16 +104,20 @@ Compiled compile_cases(const Question& question, std::size_t most_cases) {
   Unknowns at_first = unknowns;
   for (std::size_t p = 0; p < question.parameters.size(); ++p)
     at_first.domains[question.parameters[p]] = question.parameter_values[p];
-  Facts facts(dag, unknowns), first(dag, at_first);
+  Facts facts(dag, unknowns);
   const std::vector<Case> cases = split_into_cases(dag, facts, whole, unknowns, most_cases);
   std::vector<Pair> views;
-  for (const Case& one : cases) {
+  for (const Case& shared : cases) {
+    // A graph of its own: small, and all of it of use.
+    Dag own;
+    const Case one = copy_of(shared, dag, own);
+    Facts known(own, unknowns), first(own, at_first);
     const Pair& pair = views.emplace_back(
-        Pair{eliminate(dag, facts, first, one, unknowns, Purpose::search, question.name_of),
-             eliminate(dag, facts, first, one, unknowns, Purpose::proof, question.name_of)});
+        Pair{eliminate(own, known, first, one, unknowns, Purpose::search, question.name_of),
+             eliminate(own, known, first, one, unknowns, Purpose::proof, question.name_of)});
     compiled.cases.push_back(
-        {Code(dag, compiled.prefix, facts, pair.search, whole.objectives, Purpose::search),
-         Code(dag, compiled.prefix, facts, pair.proof, whole.objectives, Purpose::proof),
+        {Code(own, compiled.prefix, known, pair.search, whole.objectives, Purpose::search),
+         Code(own, compiled.prefix, known, pair.proof, whole.objectives, Purpose::proof),
          domains_of(pair.search, question, false),
          domains_of(pair.proof, question, true),
          {},

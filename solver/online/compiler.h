@@ -49,14 +49,12 @@ Question question_of(Problem& problem, const std::optional<Expr>& objective,
 struct Compiled {
   explicit Compiled(const Question& question);
 
-  Dag dag;
   Prefix prefix;
   Givens givens;
   Followers followers;
   std::vector<CompiledCase> cases;
   std::vector<std::vector<Source>> sources;  ///< by case, by variable
   bool has_objective;
-  std::size_t wanted;  ///< how many expressions are wanted of a solution
   std::vector<std::string> names, parameter_names;
   std::vector<Interval> parameter_values;
   std::map<std::string, Named> parameter_places, variable_places;

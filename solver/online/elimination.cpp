@@ -14,7 +14,15 @@ namespace {
 class Eliminator {
  public:
   Eliminator(Dag& dag, Facts& facts, Facts& first, const Case& one, const Unknowns& unknowns, Purpose purpose)
-      : dag_(dag), facts_(facts), first_(first), unknowns_(unknowns), purpose_(purpose), wanted_(one.wanted) {
+      : dag_(dag),
+        facts_(facts),
+        first_(first),
+        unknowns_(unknowns),
+        purpose_(purpose),
+        wanted_(one.wanted),
+        definitions_(one.definitions),
+        dropped_(one.dropped),
+        dropped_before_(one.dropped.size()) {
     if (purpose == Purpose::search) wanted_.resize(one.objectives);
     for (const Statement& statement : one.statements) {
       if (purpose == Purpose::search || !statement.is_implied) statements_.push_back(statement);
@@ -84,6 +92,8 @@ class Eliminator {
   // stand. Where later parameters leave them more play bounds are as wide, and as right.
   void fix_data() {
     std::map<Input, NodeId> low, high;
+    std::vector<Definition> places;
+    Rewriter rewrite(dag_, dag_);
     for_each_bound([&](const Input& input, NodeId value, bool is_upper) {
       (is_upper ? high : low).emplace(input, value);
     });
@@ -94,11 +104,11 @@ class Eliminator {
       const NodeId width = fold(dag_, Op::sub, {high.at(input), low.at(input), 0});
       const NodeId value = fold(dag_, Op::add, {low.at(input), fold(dag_, Op::mul, {place, width, 0}), 0});
       std::erase_if(statements_, [&](const Statement& statement) { return is_bound_of(statement, input); });
-      Rewriter rewrite(dag_, dag_);
       rewrite.replace(dag_.input(input), value);
-      rewrite_all(rewrite, statements_.size());
-      definitions_.push_back({input, value});
+      places.push_back({input, value});
     }
+    rewrite_all(rewrite, statements_.size());
+    definitions_.insert(definitions_.end(), places.begin(), places.end());
   }
 
   [[nodiscard]] bool is_bound_of(const Statement& statement, const Input& input) const {
@@ -242,18 +252,13 @@ class Eliminator {
     statements_.erase(statements_.begin() + static_cast<std::ptrdiff_t>(by.statement));
   }
 
-  [[nodiscard]] bool is_needed_by(NodeId a, NodeId b) const {
-    const std::vector<NodeId> of_b = needed_nodes(dag_, {b});
-    return std::binary_search(of_b.begin(), of_b.end(), a);
-  }
-
   // What an equation equates is the simpler of the two, everywhere else.
   void replace_equal_sides() {
     for (std::size_t i = 0; i < statements_.size(); ++i) {
       if (!is_real_equation(statements_[i].relation)) continue;
       auto [a, b, unused] = dag_[statements_[i].relation].operands;
       if (facts_.size(a).nodes < facts_.size(b).nodes) std::swap(a, b);
-      if (facts_.size(a).nodes == 1 || is_needed_by(a, b)) continue;
+      if (facts_.size(a).nodes == 1 || facts_.is_part(a, b)) continue;
       Rewriter rewrite(dag_, dag_, &dropped_);
       rewrite.replace(a, b);
       if (const std::vector<Input> inputs = facts_.inputs_of(a); !inputs.empty())
@@ -278,7 +283,7 @@ class Eliminator {
     const bool holds = !wanted.is_point() && !strict && is_at_most(dag_, a, b, facts_);
     const NodeId root = fold(dag_, Op::sub, {a, b, 0});
     if (!holds) return Requirement{root, wanted, strict, name};
-    if (purpose_ == Purpose::search || is_total(dag_, root)) return {};
+    if (purpose_ == Purpose::search || dag_[root].is_total) return {};
     return Requirement{root, Interval::entire(), false, name};
   }
 
@@ -297,7 +302,7 @@ class Eliminator {
     if (domain.lo() > -kInfinity)
       add(view, order(bound(domain.lo()), definition.value, at_most, false, name));
     if (domain.hi() < kInfinity) add(view, order(definition.value, bound(domain.hi()), at_most, false, name));
-    if (domain.is_entire() && !is_total(dag_, definition.value))
+    if (domain.is_entire() && !dag_[definition.value].is_total)
       add(view, Requirement{definition.value, Interval::entire(), false, name});
   }
 
@@ -313,7 +318,7 @@ class Eliminator {
   std::vector<NodeId> nonzero_;
   std::set<Input> data_;
   std::vector<NodeId> dropped_;  // what has to be defined, though nothing is made of its value
-  std::size_t dropped_before_ = 0;
+  std::size_t dropped_before_;
 };
 
 }  // namespace

@@ -20,12 +20,6 @@ struct Requirement {
   [[nodiscard]] bool is_equation() const { return wanted.is_point() && wanted.lo() == 0.0; }
 };
 
-/// variable == value.
-struct Definition {
-  Input variable;
-  NodeId value;
-};
-
 /// variable <= value, or >= value, of parameters alone. A requirement tells the same.
 struct Bound {
   Input variable;

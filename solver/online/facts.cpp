@@ -2,6 +2,7 @@
 #include "solver/online/facts.h"
 
 #include <algorithm>
+#include <span>
 
 #include "domains/rounding.h"
 #include "solver/expression/operators.h"
@@ -18,35 +19,28 @@ Facts::Facts(const Dag& dag, const Unknowns& unknowns)
   }
 }
 
+namespace {
+
+std::span<const NodeId> operands_of(const DagNode& node) {
+  return {node.operands.data(), static_cast<std::size_t>(operator_entry(node.op).arity)};
+}
+
+}  // namespace
+
 // Operands precede what they are operands of.
 void Facts::extend() {
-  const RoundUpward guard;
-  for (auto id = static_cast<NodeId>(ranges_.size()); id < dag_.size(); ++id) {
+  const auto first = static_cast<NodeId>(supports_.size() / words_);
+  supports_.resize(dag_.size() * words_);
+  for (NodeId id = first; id < dag_.size(); ++id) {
     const DagNode& node = dag_[id];
-    supports_.resize(supports_.size() + words_);
     if (node.op == Op::input) {
       const std::size_t place = places_.at(node.input);
       support(id)[place / 64] |= std::uint64_t{1} << (place % 64);
-      ranges_.push_back(unknowns_.domains.at(node.input));
-    } else if (node.op == Op::constant) {
-      ranges_.push_back(node.value);
-    } else {
-      const int arity = operator_entry(node.op).arity;
-      const auto operand = [&](int k) { return node.operands[static_cast<std::size_t>(k < arity ? k : 0)]; };
-      for (int k = 0; k < arity; ++k) {
-        for (std::size_t w = 0; w < words_; ++w) support(id)[w] |= support(operand(k))[w];
-      }
-      ranges_.push_back(with_operator(node.op, [&](auto known) {
-        return decltype(known)::type::forward(ranges_[operand(0)], ranges_[operand(1)], ranges_[operand(2)]);
-      }));
+    }
+    for (const NodeId operand : operands_of(node)) {
+      for (std::size_t w = 0; w < words_; ++w) support(id)[w] |= support(operand)[w];
     }
   }
-}
-
-bool Facts::needs(NodeId node, const Input& input) {
-  extend();
-  const std::size_t place = places_.at(input);
-  return ((support(node)[place / 64] >> (place % 64)) & 1U) != 0;
 }
 
 bool Facts::is_given(NodeId node) {
@@ -66,17 +60,70 @@ std::vector<Input> Facts::inputs_of(NodeId node) {
   return inputs;
 }
 
+// f(node) of a node and of all that it needs, once each, for as long as f wants what a node needs.
+template <class F>
+void Facts::for_each_part(NodeId node, F f) {
+  marks_.resize(dag_.size());
+  ++mark_;
+  const auto visit = [&](NodeId id) {
+    if (marks_[id] == mark_) return;
+    marks_[id] = mark_;
+    if (f(id)) open_.push_back(id);
+  };
+  visit(node);
+  while (!open_.empty()) {
+    const NodeId id = open_.back();
+    open_.pop_back();
+    for (const NodeId operand : operands_of(dag_[id])) visit(operand);
+  }
+}
+
 Facts::Size Facts::size(NodeId node) {
   const auto [place, is_new] = sizes_.try_emplace(node);
   if (!is_new) return place->second;
-  const std::vector<NodeId> needed = needed_nodes(dag_, {node});
-  const auto open = std::count_if(needed.begin(), needed.end(), [&](NodeId id) { return !is_given(id); });
-  return place->second = {needed.size(), static_cast<std::size_t>(open)};
+  Size size{0, 0};
+  for_each_part(node, [&](NodeId id) {
+    ++size.nodes;
+    if (!is_given(id)) ++size.open;
+    return true;
+  });
+  return place->second = size;
 }
 
-const Interval& Facts::range(NodeId node) {
-  extend();
+bool Facts::is_part(NodeId part, NodeId of) {
+  bool is_found = false;
+  for_each_part(of, [&](NodeId id) {
+    is_found = is_found || id == part;
+    return !is_found && id > part;
+  });
+  return is_found;
+}
+
+Interval Facts::range(NodeId node) {
+  ranges_.resize(dag_.size());
+  has_range_.resize(dag_.size());
+  if (has_range_[node] != 0) return ranges_[node];
+  const RoundUpward guard;
+  std::vector<NodeId> parts;
+  for_each_part(node, [&](NodeId id) {
+    if (has_range_[id] == 0) parts.push_back(id);
+    return has_range_[id] == 0;
+  });
+  std::sort(parts.begin(), parts.end());
+  for (const NodeId id : parts) {
+    ranges_[id] = range_over_operands(dag_[id]);
+    has_range_[id] = 1;
+  }
   return ranges_[node];
+}
+
+Interval Facts::range_over_operands(const DagNode& node) const {
+  if (node.op == Op::input) return unknowns_.domains.at(node.input);
+  if (node.op == Op::constant) return node.value;
+  const std::size_t arity = operands_of(node).size();
+  const auto range = [&](std::size_t k) { return ranges_[node.operands[k < arity ? k : 0]]; };
+  return with_operator(
+      node.op, [&](auto known) { return decltype(known)::type::forward(range(0), range(1), range(2)); });
 }
 
 namespace {

@@ -33,8 +33,13 @@ class Facts {
   /// Every input of the graph has a domain.
   Facts(const Dag& dag, const Unknowns& unknowns);
 
-  /// Whether an expression needs an input.
-  [[nodiscard]] bool needs(NodeId node, const Input& input);
+  /// Whether an expression needs an input; the number of one, for asking often.
+  [[nodiscard]] bool needs(NodeId node, const Input& input) { return needs(node, number_of(input)); }
+  [[nodiscard]] bool needs(NodeId node, std::size_t number) {
+    if (supports_.size() < dag_.size() * words_) extend();
+    return ((support(node)[number / 64] >> (number % 64)) & 1U) != 0;
+  }
+  [[nodiscard]] std::size_t number_of(const Input& input) const { return places_.at(input); }
   /// Whether an expression is the same whatever the unknowns are.
   [[nodiscard]] bool is_given(NodeId node);
   [[nodiscard]] std::vector<Input> inputs_of(NodeId node);
@@ -43,11 +48,16 @@ class Facts {
     std::size_t nodes, open;
   };
   [[nodiscard]] Size size(NodeId node);
+  /// Whether an expression is another, or needs it.
+  [[nodiscard]] bool is_part(NodeId part, NodeId of);
   /// An enclosure of its values for inputs within their domains.
-  [[nodiscard]] const Interval& range(NodeId node);
+  [[nodiscard]] Interval range(NodeId node);
 
  private:
   void extend();
+  template <class F>
+  void for_each_part(NodeId node, F f);
+  [[nodiscard]] Interval range_over_operands(const DagNode& node) const;
   [[nodiscard]] std::uint64_t* support(NodeId node) { return &supports_[node * words_]; }
 
   const Dag& dag_;
@@ -57,7 +67,11 @@ class Facts {
   std::size_t words_;
   std::vector<std::uint64_t> is_unknown_;  // by input, as bits
   std::vector<std::uint64_t> supports_;    // by node, as bits
-  std::vector<Interval> ranges_;           // by node
+  std::vector<Interval> ranges_;           // by node, of those that were asked for
+  std::vector<std::uint8_t> has_range_;    // by node
+  std::vector<std::uint32_t> marks_;       // by node: the last visit
+  std::uint32_t mark_ = 0;
+  std::vector<NodeId> open_;  // of the visit at hand
   std::unordered_map<NodeId, Size> sizes_;
 };
 

@@ -60,11 +60,13 @@ void Machine::apply_real(const ChainRule& rule) {
   const double *a = real_slopes_of(rule.a), *b = real_slopes_of(rule.b), *c = real_slopes_of(rule.c);
   const double va = reals_[rule.a], vb = reals_[rule.b];
   double* const y = &real_slopes_[(rule.y - first_ + 1) * real_columns_];
+  // What does not vary does not, though the root of 0 is infinitely steep.
+  const auto product = [](double by, double of) { return of == 0.0 ? 0.0 : by * of; };
   const auto set = [&](double by_a, const double* of_a, double by_b, const double* of_b) {
-    for (std::size_t v = 0; v < real_columns_; ++v) y[v] = by_a * of_a[v] + by_b * of_b[v];
+    for (std::size_t v = 0; v < real_columns_; ++v) y[v] = product(by_a, of_a[v]) + product(by_b, of_b[v]);
   };
-  const auto copy = [&](double sign, const double* of) {
-    for (std::size_t v = 0; v < real_columns_; ++v) y[v] = sign * of[v];
+  const auto copy = [&](double by, const double* of) {
+    for (std::size_t v = 0; v < real_columns_; ++v) y[v] = product(by, of[v]);
   };
   switch (kKind) {
     case Kind::copy:

@@ -41,7 +41,7 @@ struct Folding {
   }
   [[nodiscard]] NodeId negated(NodeId node) const { return make(Op::neg, node); }
   [[nodiscard]] bool may_drop(NodeId node) const {
-    if (is_total(dag, node)) return true;
+    if (dag[node].is_total) return true;
     if (dropped == nullptr) return false;
     dropped->push_back(node);
     return true;
@@ -136,21 +136,17 @@ struct Folding {
 
 }  // namespace
 
+NodeId copy_constant(const DagNode& constant, Dag& to) {
+  const std::uint64_t origin = constant.input.component | std::uint64_t{constant.input.gate} << 32;
+  return to.constant(constant.value, origin);
+}
+
 bool is_number(const Dag& dag, NodeId node) {
   return dag[node].op == Op::constant && dag[node].value.is_point();
 }
 
 bool is_number(const Dag& dag, NodeId node, double value) {
   return is_number(dag, node) && dag[node].value.lo() == value;
-}
-
-bool is_total(const Dag& dag, NodeId node) {
-  const std::vector<NodeId> needed = needed_nodes(dag, {node});
-  return std::all_of(needed.begin(), needed.end(), [&](NodeId id) {
-    const Op op = dag[id].op;
-    return is_leaf(op) ||
-           with_operator(op, [](auto known) { return operators::is_total<typename decltype(known)::type>; });
-  });
 }
 
 NodeId fold(Dag& dag, Op op, std::array<NodeId, 3> operands, std::vector<NodeId>* dropped) {
@@ -179,7 +175,7 @@ NodeId Rewriter::copy_leaf(NodeId node) {
 }
 
 NodeId Rewriter::operator()(NodeId node) {
-  if (const auto known = known_.find(node); known != known_.end()) return known->second;
+  if (const NodeId* known = known_.find(node)) return *known;
   if (facts_ != nullptr && !facts_->needs(node, input_)) return node;
   const DagNode copy = from_[node];
   NodeId result{};
@@ -194,7 +190,7 @@ NodeId Rewriter::operator()(NodeId node) {
     }
     result = is_same ? node : fold(to_, copy.op, operands, dropped_);
   }
-  known_[node] = result;
+  known_.set(node, result);
   return result;
 }
 

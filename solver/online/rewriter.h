@@ -2,10 +2,10 @@
 // Expressions specialised: nodes replaced by others, and what follows from that folded.
 #pragma once
 
-#include <unordered_map>
 #include <vector>
 
 #include "solver/online/facts.h"
+#include "solver/online/node_map.h"
 
 namespace hcsp::online {
 
@@ -17,11 +17,11 @@ class Rewriter {
 
   /// From here on `node` becomes `other`, a node of the graph that is written; before its operands are looked
   /// at.
-  void replace(NodeId node, NodeId other) { known_[node] = other; }
+  void replace(NodeId node, NodeId other) { known_.set(node, other); }
   /// Within one graph: only what needs this input changes.
   void restrict_to(Facts& facts, const Input& input) {
     facts_ = &facts;
-    input_ = input;
+    input_ = facts.number_of(input);
   }
   NodeId operator()(NodeId node);
 
@@ -31,20 +31,20 @@ class Rewriter {
   const Dag& from_;
   Dag& to_;
   std::vector<NodeId>* dropped_;
-  std::unordered_map<NodeId, NodeId> known_;
+  NodeMap known_;
   Facts* facts_ = nullptr;
-  Input input_{};
+  std::size_t input_ = 0;
 };
 
 /// op applied to operands, folded: exact constants, neutral elements, decided choices and connectives. 0 x is
 /// 0 where x is defined: such an x is added to `dropped`, or it is only done where x is defined anyway.
 NodeId fold(Dag& dag, Op op, std::array<NodeId, 3> operands, std::vector<NodeId>* dropped = nullptr);
 
+/// The same constant in another graph: constants that were one number, or not, remain so.
+NodeId copy_constant(const DagNode& constant, Dag& to);
+
 /// A constant that is one exact number.
 bool is_number(const Dag& dag, NodeId node);
 bool is_number(const Dag& dag, NodeId node, double value);
-
-/// Whether an expression is defined whatever values its leaves have.
-bool is_total(const Dag& dag, NodeId node);
 
 }  // namespace hcsp::online

@@ -11,24 +11,6 @@ namespace hcsp::folding {
 
 namespace {
 
-bool is_total(Op op) {
-  switch (op) {
-    case Op::div:
-    case Op::sqrt:
-    case Op::log:
-    case Op::tan:
-    case Op::asin:
-    case Op::acos:
-    case Op::atan2:
-    case Op::pown:
-    case Op::pow:
-    case Op::root:
-      return false;
-    default:
-      return true;
-  }
-}
-
 const DagNode& node_of(Expr a) { return a.dag()[a.node()]; }
 
 // The value of two literals under an operation, where a double holds it.
@@ -50,13 +32,7 @@ bool is_number(Expr a, double value) {
   return node.op == Op::constant && node.value == Interval(value);
 }
 
-bool is_total(Expr a) {
-  const std::vector<NodeId> needed = needed_nodes(a.dag(), {a.node()});
-  return std::all_of(needed.begin(), needed.end(), [&](NodeId id) {
-    const DagNode& node = a.dag()[id];
-    return is_total(node.op) && !(node.op == Op::constant && node.value.is_empty());
-  });
-}
+bool is_total(Expr a) { return node_of(a).is_total; }
 
 Expr number(Dag& dag, double value) { return {dag, dag.constant(Interval(value))}; }
 
