@@ -187,7 +187,7 @@ bool Contraction::choose_square() {
     if (code_->tests[i].is_equation && has_form_[i] != 0) equations_[rows++] = i;
   }
   if (rows < active_count_) return false;
-  pivoting_.start(rows);
+  pivoting_.start(rows, code_->core());
   for (std::size_t k = 0; k < rows; ++k) {
     for_each_active([&](std::size_t v) {
       const Interval& slope = form_slopes_[equations_[k] * code_->core() + v];

@@ -20,7 +20,7 @@ Machine::Machine(const Prefix& prefix, std::size_t own_registers, std::size_t co
       flags_(values_.size(), kDefined | kLipschitz),
       needed_(values_.size()),
       reals_(values_.size()),
-      real_slopes_(slopes_.size()),
+      real_slopes_((own_registers + 1) * padded(core)),
       sides_(surfaces, Side::both) {
   for (const auto& [reg, value] : prefix.constants()) values_[reg] = value;
 }

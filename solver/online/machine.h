@@ -118,6 +118,12 @@ class Machine {
   template <ChainRule::Kind kKind>
   void apply_real(const ChainRule& rule);
 
+  // Rows of derivatives in floating point have columns by fours, the last of them 0.
+  static constexpr std::size_t kLanes = 4;
+  static constexpr std::size_t padded(std::size_t columns) {
+    return (columns + kLanes - 1) / kLanes * kLanes;
+  }
+
   Register first_;  // own register
   std::size_t columns_ = 0, real_columns_ = 0;
   std::vector<Interval> values_, slopes_;

@@ -60,13 +60,20 @@ void Machine::apply_real(const ChainRule& rule) {
   const double *a = real_slopes_of(rule.a), *b = real_slopes_of(rule.b), *c = real_slopes_of(rule.c);
   const double va = reals_[rule.a], vb = reals_[rule.b];
   double* const y = &real_slopes_[(rule.y - first_ + 1) * real_columns_];
+  const auto write = [&](auto value_of) {
+    for (std::size_t v = 0; v < real_columns_; v += kLanes) {
+      std::array<double, kLanes> values;
+      for (std::size_t u = 0; u < kLanes; ++u) values[u] = value_of(v + u);
+      std::copy(values.begin(), values.end(), y + v);
+    }
+  };
   // What does not vary does not, though the root of 0 is infinitely steep.
   const auto product = [](double by, double of) { return of == 0.0 ? 0.0 : by * of; };
   const auto set = [&](double by_a, const double* of_a, double by_b, const double* of_b) {
-    for (std::size_t v = 0; v < real_columns_; ++v) y[v] = product(by_a, of_a[v]) + product(by_b, of_b[v]);
+    write([&](std::size_t v) { return product(by_a, of_a[v]) + product(by_b, of_b[v]); });
   };
   const auto copy = [&](double by, const double* of) {
-    for (std::size_t v = 0; v < real_columns_; ++v) y[v] = product(by, of[v]);
+    write([&](std::size_t v) { return product(by, of[v]); });
   };
   switch (kKind) {
     case Kind::copy:
@@ -97,7 +104,7 @@ void Machine::apply_real(const ChainRule& rule) {
 
 void Machine::differentiate_real(const Code& code, std::uint64_t active, Code::Stage last) {
   run_real(std::span(code.slopes).first(code.ends[last].slopes));
-  real_columns_ = static_cast<std::size_t>(__builtin_popcountll(active));
+  real_columns_ = padded(static_cast<std::size_t>(__builtin_popcountll(active)));
   std::fill_n(real_slopes_.begin(), (code.core() + 1) * real_columns_, 0.0);
   std::size_t k = 0;
   for (std::uint64_t left = active; left != 0; left &= left - 1, ++k) {

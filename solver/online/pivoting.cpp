@@ -7,16 +7,16 @@
 
 namespace hcsp::online {
 
-Pivoting::Pivoting(std::size_t most_rows, std::size_t columns)
-    : columns_(columns),
-      matrix_(most_rows * columns),
+Pivoting::Pivoting(std::size_t most_rows, std::size_t most_columns)
+    : matrix_(most_rows * most_columns),
       right_(most_rows),
       solution_(most_rows),
       row_of_(most_rows),
-      column_of_(columns) {}
+      column_of_(most_columns) {}
 
-void Pivoting::start(std::size_t rows) {
+void Pivoting::start(std::size_t rows, std::size_t columns) {
   rows_ = rows;
+  columns_ = columns;
   std::fill_n(matrix_.begin(), rows * columns_, 0.0);
 }
 
@@ -57,7 +57,7 @@ bool Pivoting::find_pivot(std::size_t k, double noise) {
 bool Pivoting::eliminate(double noise) {
   if (!scale_rows()) return false;
   std::iota(row_of_.begin(), row_of_.begin() + static_cast<std::ptrdiff_t>(rows_), 0U);
-  std::iota(column_of_.begin(), column_of_.end(), 0U);
+  std::iota(column_of_.begin(), column_of_.begin() + static_cast<std::ptrdiff_t>(columns_), 0U);
   for (rank_ = 0; rank_ < std::min(rows_, columns_) && find_pivot(rank_, noise); ++rank_) {
     const std::uint32_t pivot = row_of_[rank_], column = column_of_[rank_];
     for (std::size_t i = rank_ + 1; i < rows_; ++i) {

@@ -12,10 +12,10 @@ namespace hcsp::online {
 
 class Pivoting {
  public:
-  Pivoting(std::size_t most_rows, std::size_t columns);
+  Pivoting(std::size_t most_rows, std::size_t most_columns);
 
-  /// Starts a matrix of so many rows, all 0. PRECONDITION: at most `most_rows`.
-  void start(std::size_t rows);
+  /// Starts a matrix of so many rows and columns, all 0. PRECONDITION: at most as many as there is room for.
+  void start(std::size_t rows, std::size_t columns);
   double& at(std::size_t row, std::size_t column) { return matrix_[row * columns_ + column]; }
   double& right(std::size_t row) { return right_[row]; }
 
@@ -34,7 +34,7 @@ class Pivoting {
   bool find_pivot(std::size_t k, double noise);
   void substitute_back();
 
-  std::size_t columns_, rows_ = 0, rank_ = 0;
+  std::size_t columns_ = 0, rows_ = 0, rank_ = 0;
   std::vector<double> matrix_, right_, solution_;
   std::vector<std::uint32_t> row_of_, column_of_;  // the first rank() are pivots
 };

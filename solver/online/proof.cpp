@@ -20,6 +20,7 @@ std::size_t place(std::uint64_t mask, std::uint32_t v) {
 
 Proof::Proof(Machine& machine, std::size_t most_tests, std::size_t most_core)
     : machine_(machine),
+      unknowns_(most_core),
       point_(most_core),
       is_active_(most_tests),
       is_solved_(most_tests),
@@ -87,14 +88,14 @@ void Proof::collect_rows() {
 // With regard to the unknowns of a mask; false where a number is not finite.
 bool Proof::fill_matrix(std::uint64_t active) {
   machine_.differentiate_real(*code_, active, stage_);
-  pivoting_.start(row_count_);
+  std::size_t columns = 0;
+  for (std::uint64_t left = active; left != 0; left &= left - 1)
+    unknowns_[columns++] = static_cast<std::uint32_t>(__builtin_ctzll(left));
+  pivoting_.start(row_count_, columns);
   for (std::size_t k = 0; k < row_count_; ++k) {
     const Register reg = code_->tests[rows_[k]].reg;
-    std::size_t column = 0;
-    for (std::uint64_t left = active; left != 0; left &= left - 1, ++column) {
-      const auto v = static_cast<std::size_t>(__builtin_ctzll(left));
-      pivoting_.at(k, v) = machine_.real_slope(reg, column) * room(v);
-    }
+    for (std::size_t l = 0; l < columns; ++l)
+      pivoting_.at(k, l) = machine_.real_slope(reg, l) * room(unknowns_[l]);
     pivoting_.right(k) = -machine_.real(reg);
   }
   active_ = active;
@@ -119,10 +120,11 @@ bool Proof::correct() {
   constexpr int kMostSteps = 20;
   constexpr int kMostVain = 2;
   constexpr double kSmall = 1e-12;  // next to what data play, or a kink may be on the way
-  constexpr double kNear = 1e-2;
+  constexpr double kNear = 1e-2, kSquare = 1e-7, kMuchSmaller = 1e-3;
   collect_rows();
   std::fill_n(least_.begin(), row_count_, kInfinity);
   int vain = 0;
+  double before = kInfinity;
   for (int step = 0; step < kMostSteps; ++step) {
     keep_within_domains();
     machine_.evaluate_real(*code_, {point_.data(), size_}, stage_);
@@ -134,14 +136,16 @@ bool Proof::correct() {
     if (pivoting_.rank() < row_count_ && !fill_matrix(all_)) return false;
     double most = 0.0;
     for (std::size_t k = 0; k < pivoting_.rank(); ++k) {
-      const std::uint32_t v = pivoting_.column(k);
+      const std::uint32_t v = unknowns_[pivoting_.column(k)];
       const double change = pivoting_.solution(k) * room(v);
       point_[v] += change;
       most = std::max(most,
                       std::abs(change) / std::max(std::abs(point_[v]), std::numeric_limits<double>::min()));
     }
     if (!(most < kInfinity)) return false;
-    if (most < kSmall || (vain >= kMostVain && most < kNear)) break;
+    const bool is_square = most < kSquare && most < kMuchSmaller * before;
+    if (is_square || most < kSmall || (vain >= kMostVain && most < kNear)) break;
+    before = most;
   }
   keep_within_domains();
   return true;
@@ -160,7 +164,7 @@ bool Proof::solve_exactly() {
   std::fill_n(is_solved_.begin(), code_->tests.size(), std::uint8_t{0});
   for (std::size_t k = 0; k < rank_; ++k) {
     solved_rows_[k] = rows_[pivoting_.row(k)];
-    columns_[k] = pivoting_.column(k);
+    columns_[k] = unknowns_[pivoting_.column(k)];
     is_solved_[solved_rows_[k]] = 1;
   }
   for (std::size_t v = 0; v < size_; ++v) box_[v] = Interval::raw(point_[v], point_[v]);

@@ -45,9 +45,10 @@ class Proof {
   std::size_t size_ = 0;
   Code::Stage stage_ = Code::all;  // that has all rows
   std::uint64_t all_ = 0, free_ = 0,
-                active_ = 0;  // unknowns: all, those that are no data, those of the matrix
-  bool is_kinked_ = false;    // kinks are within reach
-  bool is_exact_ = false;     // in floating point all rows are 0
+                active_ = 0;             // unknowns: all, those that are no data, those of the matrix
+  std::vector<std::uint32_t> unknowns_;  // by column of the matrix
+  bool is_kinked_ = false;               // kinks are within reach
+  bool is_exact_ = false;                // in floating point all rows are 0
   std::vector<double> point_;
   std::vector<std::uint8_t> is_active_, is_solved_;  // by test
   std::vector<std::uint32_t> rows_;                  // tests that are to be 0

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Latencies of compiled problems, one thread, in microseconds of this thread's time: percentiles over random
-// parameters, first with nothing remembered, then "warm", after a solve of almost the same.
+// parameters, first with nothing remembered, then "warm". Of motions: re-plans from where the motion is at a
+// random instant, to the same target, and a cycle of a millisecond later to one a little further. Of circles:
+// a solve of almost the same.
 //   online_bench [DRAWS]
 #include <algorithm>
 #include <cmath>
@@ -8,6 +10,7 @@
 #include <cstdlib>
 #include <ctime>
 #include <random>
+#include <span>
 
 #include "lang/online.h"
 #include "tests/support/two_circles.h"
@@ -85,14 +88,32 @@ class Motion {
     if (ends_moving) v1_ = draw(random, -w, w);
   }
 
-  void set(double part) {
+  void start() {
     give("vmax", vmax_);
     give("amax", amax_);
     give("jmax", jmax_);
-    give("p1", scaled(part * reference_));
+    give("p0", scaled(0.0));
     give("v0", scaled(v0_));
     give("a0", scaled(a0_));
     if (ends_moving_) give("v1", scaled(v1_));
+    aim(1.0);
+  }
+  /// At a part of the way that was first asked for.
+  void aim(double part) { give("p1", scaled(part * reference_)); }
+
+  /// The state of the last plan after a time, which is where the next is to begin.
+  void go_on(double time) {
+    const std::span<const Interval> rho = compiled_.value(compiled_.variable("rho"));
+    const double w = at("w", 0, time), b = at("b", 0, time);
+    std::vector<double> p, v, a;
+    for (std::size_t k = 0; k < kJoints; ++k) {
+      p.push_back(at("p", k, time));
+      v.push_back(rho[k].mid() * w);
+      a.push_back(rho[k].mid() * b);
+    }
+    give("p0", p);
+    give("v0", v);
+    give("a0", a);
   }
 
  private:
@@ -103,6 +124,11 @@ class Motion {
   }
   void give(const char* name, const std::vector<double>& values) {
     compiled_.set(compiled_.parameter(name), values);
+  }
+
+  double at(const char* tube, std::size_t k, double time) const {
+    const PolynomialTube& motion = compiled_.value(compiled_.tube(tube));
+    return motion.at(k, Interval(std::min(time, motion.instant(motion.phases()).lo()))).mid();
   }
 
   CompiledProblem& compiled_;
@@ -118,17 +144,24 @@ void bench_motions(const char* name, int draws, bool is_moving, bool ends_moving
   const std::string model = ends_moving ? "type4.hcsp" : "type3.hcsp";
   CompiledProblem compiled =
       compile(std::string(HCSP_SOURCE_DIR) + "/models/straight_line/" + model, options);
-  Latencies cold, warm;
+  constexpr double kCycle = 1e-3;
+  Latencies cold, same, further;
   for (int k = 0; k < draws; ++k) {
     Motion motion(compiled, random, is_moving, ends_moving);
-    motion.set(1.0);
+    motion.start();
     compiled.forget();
     cold.solve(compiled);
-    motion.set(1.0 - 1e-3 * draw(random, 0.0, 1.0));
-    warm.solve(compiled);
+    if (!compiled.has_solution()) continue;
+    motion.go_on(draw(random, 0.0, compiled.objective().lo()));
+    same.solve(compiled);
+    if (!compiled.has_solution()) continue;
+    motion.go_on(kCycle);
+    motion.aim(1.0 + 1e-3 * draw(random, 0.0, 1.0));
+    further.solve(compiled);
   }
   cold.print(name);
-  warm.print("  warm");
+  same.print("  re-plan, same target");
+  further.print("  1 ms later, further");
 }
 
 void bench_circles(int draws) {
@@ -158,7 +191,7 @@ void bench_circles(int draws) {
 }  // namespace hcsp
 
 int main(int argc, char** argv) {
-  const int draws = argc > 1 ? std::atoi(argv[1]) : 10000;
+  const int draws = argc > 1 ? std::atoi(argv[1]) : 100000;
   hcsp::bench_motions("type III, from rest", draws, false, false);
   hcsp::bench_motions("type III, in motion", draws, true, false);
   hcsp::bench_motions("type IV, from rest", draws, false, true);
