@@ -21,7 +21,9 @@ class Splitter {
     Case flat = one;
     flat.statements.clear();
     for (const Statement& statement : one.statements) {
-      if (!add_conjuncts(statement, flat.statements)) return;
+      if (add_conjuncts(statement, flat.statements)) continue;
+      refuted_by_ = statement.name;
+      return;
     }
     if (const auto next = next_choice(flat, true)) return split_by_alternatives(flat, *next);
     if (substitute_givens(flat)) return split(flat);
@@ -31,7 +33,13 @@ class Splitter {
     cases_.push_back(std::move(flat));
   }
 
-  std::vector<Case> take() { return std::move(cases_); }
+  std::vector<Case> take(const Case& whole) {
+    if (cases_.empty()) {
+      Case& none = cases_.emplace_back(whole);
+      none.statements = {{dag_.constant(kFalse), refuted_by_, false}};
+    }
+    return std::move(cases_);
+  }
 
  private:
   // False where the statement holds nowhere.
@@ -70,7 +78,8 @@ class Splitter {
 
   void split_by_values(const Case& one, const Input& whole) {
     const Interval domain = unknowns_.domains.at(whole);
-    require(domain.hi() - domain.lo() < static_cast<double>(most_),
+    constexpr double kGreatest = 0x1p53;  // doubles further out are not all whole numbers
+    require(domain.mag() <= kGreatest && domain.hi() - domain.lo() < static_cast<double>(most_),
             "compile: a whole number between {} and {} has too many values", domain.lo(), domain.hi());
     for (double value = domain.lo(); value <= domain.hi(); value += 1.0) {
       Rewriter rewrite(dag_, dag_);
@@ -104,8 +113,9 @@ class Splitter {
 
   // Once for all cases that follow. False where there was nothing to do.
   bool substitute_givens(Case& one) {
-    Rewriter rewrite(dag_, dag_, &one.dropped);
-    const std::size_t before = one.definitions.size();
+    Rewriter rewrite(dag_, dag_, &one.dropped), careful(dag_, dag_);
+    rewrite.leave_truths_to(careful);
+    const std::size_t before = one.definitions.size(), dropped_before = one.dropped.size();
     std::erase_if(one.statements, [&](const Statement& statement) {
       const auto definition = statement.is_implied ? std::nullopt : given_by(statement.relation);
       if (!definition) return false;
@@ -113,13 +123,18 @@ class Splitter {
           std::none_of(one.definitions.begin(), one.definitions.end(),
                        [&](const auto& known) { return known.variable == definition->variable; });
       if (!is_new) return false;
-      rewrite.replace(dag_.input(definition->variable), definition->value);
+      for (Rewriter* own : {&rewrite, &careful})
+        own->replace(dag_.input(definition->variable), definition->value);
       one.definitions.push_back(*definition);
       return true;
     });
     if (one.definitions.size() == before) return false;
     for (Statement& statement : one.statements) statement.relation = rewrite(statement.relation);
     for (NodeId& node : one.wanted) node = rewrite(node);
+    for (std::size_t i = 0; i < dropped_before; ++i) {
+      const NodeId rewritten = rewrite(one.dropped[i]);
+      one.dropped[i] = rewritten;
+    }
     return true;
   }
 
@@ -148,6 +163,7 @@ class Splitter {
     const auto stated = std::find_if(alternatives.begin(), alternatives.end(), is_stated);
     if (stated != alternatives.end()) alternatives = {*stated};
     std::erase_if(alternatives, [&](NodeId relation) { return is_contradicted(one, relation); });
+    if (alternatives.empty()) refuted_by_ = one.statements[i].name;
     for (const NodeId alternative : alternatives) {
       Case chosen = one;
       chosen.statements[i].relation = alternative;
@@ -191,6 +207,7 @@ class Splitter {
   const Unknowns& unknowns_;
   std::size_t most_;
   std::vector<Case> cases_;
+  std::uint32_t refuted_by_ = 0;
 };
 
 }  // namespace
@@ -199,7 +216,7 @@ std::vector<Case> split_into_cases(Dag& dag, Facts& facts, const Case& whole, co
                                    std::size_t most) {
   Splitter splitter(dag, facts, unknowns, most);
   splitter.split(whole);
-  return splitter.take();
+  return splitter.take(whole);
 }
 
 }  // namespace hcsp::online

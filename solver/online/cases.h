@@ -36,8 +36,9 @@ struct Case {
   std::vector<NodeId> dropped;
 };
 
-/// Every solution is in one of the cases at least. Throws std::invalid_argument where they are more than
-/// `most`, or a whole number has too many values.
+/// Every solution is in one of the cases at least; where there is none for sure one case says "false" by the
+/// name of what refutes. Throws std::invalid_argument where they are more than `most`, or a whole number has
+/// too many values.
 std::vector<Case> split_into_cases(Dag& dag, Facts& facts, const Case& whole, const Unknowns& unknowns,
                                    std::size_t most);
 

@@ -28,11 +28,10 @@ struct CompiledProblem::Impl {
   online::Machine machine;
   online::Search search;
   std::vector<Interval> parameters;
-  std::vector<std::uint8_t> is_invalid;  // by parameter, at the first of a vector
+  std::vector<std::uint8_t> is_invalid;  // by parameter
   std::vector<std::uint8_t> is_set;      // by parameter
-  std::size_t invalid_count = 0;
-  std::vector<Interval> values;   // by variable of the problem
-  std::vector<Interval> outputs;  // of the options
+  std::vector<Interval> values;          // by variable of the problem
+  std::vector<Interval> outputs;         // of the options
   OnlineStatus status = OnlineStatus::undecided;
   Interval objective = Interval::empty();
   std::string_view reason;
@@ -69,9 +68,7 @@ bool CompiledProblem::Impl::set(Parameter parameter, std::span<const Number> giv
   if (parameter.size == 0 || parameter.first + parameter.size > parameters.size()) return false;
   const bool is_good = given.size() == parameter.size &&
                        std::all_of(given.begin(), given.end(), [](const Number& x) { return is_valid(x); });
-  std::uint8_t& mark = is_invalid[parameter.first];
-  invalid_count = invalid_count - mark + (is_good ? 0U : 1U);
-  mark = is_good ? 0 : 1;
+  std::fill_n(&is_invalid[parameter.first], parameter.size, static_cast<std::uint8_t>(is_good ? 0 : 1));
   if (!is_good) return false;
   for (std::size_t i = 0; i < given.size(); ++i) {
     parameters[parameter.first + i] = as_interval(given[i]);
@@ -84,10 +81,10 @@ void CompiledProblem::Impl::solve() {
   is_found = false;
   objective = Interval::empty();
   reason = {};
-  if (invalid_count > 0) {
-    const auto bad = std::find(is_invalid.begin(), is_invalid.end(), std::uint8_t{1}) - is_invalid.begin();
+  const auto bad = std::find(is_invalid.begin(), is_invalid.end(), std::uint8_t{1});
+  if (bad != is_invalid.end()) {
     status = OnlineStatus::invalid;
-    reason = compiled.parameter_names[static_cast<std::size_t>(bad)];
+    reason = compiled.parameter_names[static_cast<std::size_t>(bad - is_invalid.begin())];
     return;
   }
   const RoundUpward guard;

@@ -239,15 +239,25 @@ class Eliminator {
     dropped_before_ = dropped_.size();
   }
 
+  // Nodes become others, which all need `input`. What becomes superfluous by a factor 0 is dropped: a proof
+  // has to show that it is defined, a search is left with one requirement less. That is no less where it
+  // turns a truth round.
+  void rewrite_all(std::size_t except, const std::optional<Input>& input,
+                   std::initializer_list<std::pair<NodeId, NodeId>> replaced) {
+    Rewriter rewrite(dag_, dag_, &dropped_), careful(dag_, dag_);
+    for (Rewriter* one : {&rewrite, &careful}) {
+      for (const auto& [node, other] : replaced) one->replace(node, other);
+      if (input) one->restrict_to(facts_, *input);
+    }
+    if (purpose_ == Purpose::search) rewrite.leave_truths_to(careful);
+    rewrite_all(rewrite, except);
+  }
+
   void define(const Candidate& by) {
     const DagNode equation = dag_[statements_[by.statement].relation];
     const NodeId side = equation.operands[by.side], other = equation.operands[1 - by.side];
     const NodeId value = isolate(side, by.variable, other);
-    Rewriter rewrite(dag_, dag_, &dropped_);
-    rewrite.replace(dag_.input(by.variable), value);
-    rewrite.replace(side, other);
-    rewrite.restrict_to(facts_, by.variable);
-    rewrite_all(rewrite, by.statement);
+    rewrite_all(by.statement, by.variable, {{dag_.input(by.variable), value}, {side, other}});
     definitions_.push_back({by.variable, value});
     statements_.erase(statements_.begin() + static_cast<std::ptrdiff_t>(by.statement));
   }
@@ -259,11 +269,8 @@ class Eliminator {
       auto [a, b, unused] = dag_[statements_[i].relation].operands;
       if (facts_.size(a).nodes < facts_.size(b).nodes) std::swap(a, b);
       if (facts_.size(a).nodes == 1 || facts_.is_part(a, b)) continue;
-      Rewriter rewrite(dag_, dag_, &dropped_);
-      rewrite.replace(a, b);
-      if (const std::vector<Input> inputs = facts_.inputs_of(a); !inputs.empty())
-        rewrite.restrict_to(facts_, inputs.front());
-      rewrite_all(rewrite, i);
+      const std::vector<Input> inputs = facts_.inputs_of(a);
+      rewrite_all(i, inputs.empty() ? std::nullopt : std::optional(inputs.front()), {{a, b}});
     }
   }
 

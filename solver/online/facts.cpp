@@ -6,6 +6,7 @@
 
 #include "domains/rounding.h"
 #include "solver/expression/operators.h"
+#include "solver/online/truth.h"
 
 namespace hcsp::online {
 
@@ -102,6 +103,7 @@ bool Facts::is_part(NodeId part, NodeId of) {
 Interval Facts::range(NodeId node) {
   ranges_.resize(dag_.size());
   has_range_.resize(dag_.size());
+  is_defined_.resize(dag_.size(), 1);
   if (has_range_[node] != 0) return ranges_[node];
   const RoundUpward guard;
   std::vector<NodeId> parts;
@@ -111,19 +113,28 @@ Interval Facts::range(NodeId node) {
   });
   std::sort(parts.begin(), parts.end());
   for (const NodeId id : parts) {
-    ranges_[id] = range_over_operands(dag_[id]);
+    find_range(id);
     has_range_[id] = 1;
   }
   return ranges_[node];
 }
 
-Interval Facts::range_over_operands(const DagNode& node) const {
-  if (node.op == Op::input) return unknowns_.domains.at(node.input);
-  if (node.op == Op::constant) return node.value;
-  const std::size_t arity = operands_of(node).size();
-  const auto range = [&](std::size_t k) { return ranges_[node.operands[k < arity ? k : 0]]; };
-  return with_operator(
-      node.op, [&](auto known) { return decltype(known)::type::forward(range(0), range(1), range(2)); });
+void Facts::find_range(NodeId id) {
+  const DagNode& node = dag_[id];
+  if (node.op == Op::input) ranges_[id] = unknowns_.domains.at(node.input);
+  if (node.op == Op::constant) ranges_[id] = node.value;
+  const std::span<const NodeId> operands = operands_of(node);
+  if (operands.empty()) return;
+  const auto range = [&](std::size_t k) { return ranges_[operands[k < operands.size() ? k : 0]]; };
+  const Interval a = range(0), b = range(1), c = range(2);
+  const auto [y, is_defined] = with_operator(node.op, [&](auto known) {
+    using Operator = typename decltype(known)::type;
+    return std::pair(Operator::forward(a, b, c), Operator::defined(a, b, c));
+  });
+  const bool are_defined = std::all_of(operands.begin(), operands.end(),
+                                       [&](NodeId operand) { return is_defined_[operand] != 0; });
+  ranges_[id] = is_relation(node.op) ? truth(y, a, b, are_defined) : y;
+  is_defined_[id] = is_boolean(node.op) || (are_defined && is_defined) ? 1 : 0;
 }
 
 namespace {

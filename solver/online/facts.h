@@ -57,7 +57,7 @@ class Facts {
   void extend();
   template <class F>
   void for_each_part(NodeId node, F f);
-  [[nodiscard]] Interval range_over_operands(const DagNode& node) const;
+  void find_range(NodeId node);
   [[nodiscard]] std::uint64_t* support(NodeId node) { return &supports_[node * words_]; }
 
   const Dag& dag_;
@@ -69,6 +69,7 @@ class Facts {
   std::vector<std::uint64_t> supports_;    // by node, as bits
   std::vector<Interval> ranges_;           // by node, of those that were asked for
   std::vector<std::uint8_t> has_range_;    // by node
+  std::vector<std::uint8_t> is_defined_;   // by node with a range: for all inputs
   std::vector<std::uint32_t> marks_;       // by node: the last visit
   std::uint32_t mark_ = 0;
   std::vector<NodeId> open_;  // of the visit at hand

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "solver/expression/operators.h"
+#include "solver/online/truth.h"
 
 namespace hcsp::online {
 
@@ -47,8 +48,7 @@ void Machine::run_one(const Instruction& at, Interval* values, std::uint8_t* all
   const Interval y = Operator::forward(a, b, c);
   auto flags = static_cast<std::uint8_t>(all_flags[at.a] & all_flags[at.b]);
   if constexpr (is_relation(kOp)) {
-    // False where a term is undefined.
-    values[at.y] = (flags & kDefined) == 0 && operators::is_true(y) ? kEither : y;
+    values[at.y] = truth(y, a, b, (flags & kDefined) != 0);
     all_flags[at.y] = kDefined;
     return;
   } else if constexpr (is_boolean(kOp)) {
@@ -133,6 +133,10 @@ void Machine::apply(const ChainRule& rule) {
     if (is_second) return set([&](std::size_t k) { return second[k]; });
     set([&](std::size_t k) { return join(first[k], second[k]); });
   };
+  // Of a slope that has no value anywhere, as that of root(a, 3) at a = 0, nothing is known.
+  const auto slope_in = [&](Register reg) {
+    return values_[reg].is_empty() ? Interval::entire() : values_[reg];
+  };
   switch (kKind) {
     case Kind::copy:
       return set([&](std::size_t k) { return a[k]; });
@@ -153,15 +157,18 @@ void Machine::apply(const ChainRule& rule) {
     case Kind::constant:
       return set([](std::size_t) { return Interval::raw(0.0, 0.0); });
     case Kind::root: {
-      const Interval slope = va.lo() >= 0.0 ? values_[rule.sa] : Interval::raw(0.0, kInfinity);
+      const bool is_known = va.lo() >= 0.0 && va.hi() > 0.0;
+      const Interval slope = is_known ? values_[rule.sa] : Interval::raw(0.0, kInfinity);
       return set([&](std::size_t k) { return up::mul(slope, a[k]); });
     }
-    case Kind::scale:
-      return set([&](std::size_t k) { return up::mul(values_[rule.sa], a[k]); });
-    case Kind::scale_both:
-      return set([&](std::size_t k) {
-        return up::add(up::mul(values_[rule.sa], a[k]), up::mul(values_[rule.sb], b[k]));
-      });
+    case Kind::scale: {
+      const Interval slope = slope_in(rule.sa);
+      return set([&](std::size_t k) { return up::mul(slope, a[k]); });
+    }
+    case Kind::scale_both: {
+      const Interval by_a = slope_in(rule.sa), by_b = slope_in(rule.sb);
+      return set([&](std::size_t k) { return up::add(up::mul(by_a, a[k]), up::mul(by_b, b[k])); });
+    }
   }
 }
 

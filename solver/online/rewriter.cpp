@@ -17,6 +17,13 @@ std::span<const NodeId> operands_of(const DagNode& node) {
   return {node.operands.data(), static_cast<std::size_t>(operator_entry(node.op).arity)};
 }
 
+// Choices between truths are truths.
+bool is_truth(const Dag& dag, NodeId node) {
+  const DagNode& of = dag[node];
+  if (of.op != Op::if_then_else) return is_boolean(of.op);
+  return is_truth(dag, of.operands[1]) || is_truth(dag, of.operands[2]);
+}
+
 Interval value_of(Op op, const Interval& a, const Interval& b, const Interval& c) {
   const RoundUpward guard;
   return with_operator(op, [&](auto known) { return decltype(known)::type::forward(a, b, c); });
@@ -185,7 +192,10 @@ NodeId Rewriter::operator()(NodeId node) {
     std::array<NodeId, 3> operands{};
     bool is_same = &from_ == &to_;
     for (std::size_t k = 0; k < operands_of(copy).size(); ++k) {
-      operands[k] = (*this)(copy.operands[k]);
+      const bool is_joined =
+          copy.op == Op::logical_and || copy.op == Op::logical_or || (copy.op == Op::if_then_else && k > 0);
+      const bool is_left = careful_ != nullptr && !is_joined && is_truth(from_, copy.operands[k]);
+      operands[k] = is_left ? (*careful_)(copy.operands[k]) : (*this)(copy.operands[k]);
       is_same = is_same && operands[k] == copy.operands[k];
     }
     result = is_same ? node : fold(to_, copy.op, operands, dropped_);

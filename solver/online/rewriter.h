@@ -23,6 +23,9 @@ class Rewriter {
     facts_ = &facts;
     input_ = facts.number_of(input);
   }
+  /// Truths that others are made of but by `and` and `or`, and that choose, are left to one that drops
+  /// nothing.
+  void leave_truths_to(Rewriter& careful) { careful_ = &careful; }
   NodeId operator()(NodeId node);
 
  private:
@@ -32,6 +35,7 @@ class Rewriter {
   Dag& to_;
   std::vector<NodeId>* dropped_;
   NodeMap known_;
+  Rewriter* careful_ = nullptr;
   Facts* facts_ = nullptr;
   std::size_t input_ = 0;
 };

@@ -174,8 +174,8 @@ bool Search::is_refuted_by_givens(std::size_t number) {
     ++refutations_[test.name];
     return true;
   };
-  if (refutes(likely_[number])) return true;
   const Code& code = cases_[number].search;
+  if (code.quick > 0 && refutes(likely_[number])) return true;
   const std::span<const Test> conditions = code.conditions;
   for (const Test& test : conditions.first(code.quick)) {
     if (!refutes(test)) continue;

@@ -25,10 +25,9 @@ std::vector<PhaseTubes::Expanded> PhaseTubes::expand(
   }
   std::vector<std::vector<Expr>> parts(statements.size());
   for (const auto& claim : claims_) {
-    if (claim->is_used) continue;
     at_hand_ = claim->statement;
     span_ = statements[claim->statement].span;
-    parts[claim->statement].push_back(expanded_claim(*claim));
+    parts[claim->statement].push_back(claim->is_used ? definedness(*claim) : expanded_claim(*claim));
   }
   std::vector<Expanded> all;
   for (std::size_t i = 0; i < statements.size(); ++i)
@@ -42,6 +41,17 @@ Expr PhaseTubes::expand(Expr expression) { return expanded_at_gates(expression.n
 void PhaseTubes::refuse(const std::string& message) const {
   throw PhaseError(statements_ == nullptr || !at_hand_ ? std::string() : (*statements_)[*at_hand_].name,
                    message);
+}
+
+// A definition states no more than that what it equates has a value.
+Expr PhaseTubes::definedness(const Claim& claim) {
+  std::vector<Expr> all;
+  const PhaseFunction function = function_of(claim.defined_by);
+  for (const Piece& piece : function.pieces()) {
+    for (const Expr& coefficient : piece.polynomial.coefficients)
+      all.push_back(folding::equality(coefficient, coefficient));
+  }
+  return folding::conjunction(dag_, all);
 }
 
 Expr PhaseTubes::expanded_claim(const Claim& claim) {

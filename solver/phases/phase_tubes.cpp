@@ -135,7 +135,7 @@ bool PhaseTubes::define_by_values(Component& component) {
 bool PhaseTubes::define_by_equation(Component& component) {
   for (const auto& [claim, value] : component.equal_to) {
     if (claim->is_used || !can_define(value)) continue;
-    claim->is_used = true;
+    claim->use(value);
     const auto outer = std::exchange(at_hand_, claim->statement);
     component.function = function_of(value);
     at_hand_ = outer;
@@ -147,12 +147,12 @@ bool PhaseTubes::define_by_equation(Component& component) {
 bool PhaseTubes::define_by_derivative(Component& component) {
   for (Claim* claim : component.derivatives) {
     if (!can_define(claim->expression)) continue;
-    claim->is_used = true;
+    claim->use(claim->expression);
     const auto outer = std::exchange(at_hand_, claim->statement);
     std::optional<Expr> start;
     for (const auto& [stated, value] : component.starts) {
       if (stated->is_used) continue;
-      stated->is_used = true;
+      stated->use(value);
       start = expr(value);
       break;
     }

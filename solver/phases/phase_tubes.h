@@ -67,7 +67,12 @@ class PhaseTubes {
     std::size_t statement;
     NodeId expression;
     std::optional<Leaf> derivative_of;
-    bool is_used = false;  // as a definition
+    bool is_used = false;    // as a definition
+    NodeId defined_by = {};  // then: what it equates
+    void use(NodeId value) {
+      is_used = true;
+      defined_by = value;
+    }
   };
   struct Component {
     std::string name;
@@ -92,6 +97,7 @@ class PhaseTubes {
   bool define_by_derivative(Component& component);
   bool can_define(NodeId expression);
 
+  Expr definedness(const Claim& claim);
   Expr expanded_claim(const Claim& claim);
   Expr expanded_relation(NodeId node);
   Expr expanded_comparison(NodeId node);
