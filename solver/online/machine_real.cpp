@@ -69,36 +69,34 @@ void Machine::apply_real(const ChainRule& rule) {
   };
   // What does not vary does not, though the root of 0 is infinitely steep.
   const auto product = [](double by, double of) { return of == 0.0 ? 0.0 : by * of; };
-  const auto set = [&](double by_a, const double* of_a, double by_b, const double* of_b) {
-    write([&](std::size_t v) { return product(by_a, of_a[v]) + product(by_b, of_b[v]); });
-  };
-  const auto copy = [&](double by, const double* of) {
-    write([&](std::size_t v) { return product(by, of[v]); });
-  };
+  const auto copy = [&](const double* of) { write([&](std::size_t v) { return of[v]; }); };
+  const auto negate = [&](const double* of) { write([&](std::size_t v) { return -of[v]; }); };
   switch (kKind) {
     case Kind::copy:
-      return copy(1.0, a);
+      return copy(a);
     case Kind::negate:
-      return copy(-1.0, a);
+      return negate(a);
     case Kind::add:
-      return set(1.0, a, 1.0, b);
+      return write([&](std::size_t v) { return a[v] + b[v]; });
     case Kind::sub:
-      return set(1.0, a, -1.0, b);
+      return write([&](std::size_t v) { return a[v] - b[v]; });
     case Kind::min:
-      return copy(1.0, va <= vb ? a : b);
+      return copy(va <= vb ? a : b);
     case Kind::max:
-      return copy(1.0, va >= vb ? a : b);
+      return copy(va >= vb ? a : b);
     case Kind::choice:
-      return copy(1.0, va != 0.0 ? b : c);
+      return copy(va != 0.0 ? b : c);
     case Kind::abs:
-      return copy(va >= 0.0 ? 1.0 : -1.0, a);
+      return va >= 0.0 ? copy(a) : negate(a);
     case Kind::constant:
-      return copy(0.0, real_slopes_.data());
+      return write([](std::size_t) { return 0.0; });
     case Kind::root:
     case Kind::scale:
-      return copy(reals_[rule.sa], a);
+      return write([&, by = reals_[rule.sa]](std::size_t v) { return product(by, a[v]); });
     case Kind::scale_both:
-      return set(reals_[rule.sa], a, reals_[rule.sb], b);
+      return write([&, by_a = reals_[rule.sa], by_b = reals_[rule.sb]](std::size_t v) {
+        return product(by_a, a[v]) + product(by_b, b[v]);
+      });
   }
 }
 

@@ -39,7 +39,7 @@ Proof::Proof(Machine& machine, std::size_t most_tests, std::size_t most_core)
       step_(most_core),
       image_(most_core) {}
 
-bool Proof::find(const Code& code, std::span<const double> near, std::span<const Interval> domains) {
+bool Proof::find(const Code& code, std::span<const double> near, std::span<const Interval> domains, By by) {
   constexpr int kMostRounds = 4;
   code_ = &code;
   domains_ = domains;
@@ -49,6 +49,7 @@ bool Proof::find(const Code& code, std::span<const double> near, std::span<const
     all_ |= std::uint64_t{1} << v;
     if (!is_thin(domains[v])) free_ |= std::uint64_t{1} << v;
   }
+  if (by == By::data) free_ = all_ &= ~free_;
   std::copy(near.begin(), near.end(), point_.begin());
   std::fill_n(is_active_.begin(), code.tests.size(), std::uint8_t{0});
   for (int round = 0; round < kMostRounds; ++round) {

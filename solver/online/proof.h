@@ -14,9 +14,12 @@ class Proof {
  public:
   Proof(Machine& machine, std::size_t most_tests, std::size_t most_core);
 
+  /// What is solved for: unknowns, and data where these do not do; or data alone, the unknowns being as they
+  /// are. The latter where equations are singular in the unknowns: many solutions, one of them near enough.
+  enum class By : std::uint8_t { unknowns, data };
   /// Looks for one near `near`, with every unknown of the core in `domains`. Then box() holds it, and the
   /// machine is evaluated there. PRECONDITION: the thread rounds upward.
-  bool find(const Code& code, std::span<const double> near, std::span<const Interval> domains);
+  bool find(const Code& code, std::span<const double> near, std::span<const Interval> domains, By by);
   [[nodiscard]] std::span<const Interval> box() const { return {box_.data(), size_}; }
 
  private:

@@ -225,7 +225,7 @@ bool Search::find_domains(const Code& code, std::span<const Interval> declared, 
 
 void Search::try_last(const CompiledCase& of) {
   std::copy(last_[case_].proof.begin(), last_[case_].proof.end(), candidate_.begin());
-  try_point(of, kMiddle);
+  try_point(of, kMiddle, Proof::By::unknowns);
 }
 
 // The middle of a box, and 0 where that is at an end: where all rests, equations are often singular, and hold
@@ -237,19 +237,20 @@ bool Search::try_box(const CompiledCase& of, std::span<const Interval> box, bool
     part_[v] = Interval::raw(x, x);
     has_zero = has_zero || (x != 0.0 && (box[v].lo() == 0.0 || box[v].hi() == 0.0));
   }
-  if (try_part(of, kMiddle)) return true;
+  if (try_part(of, kMiddle, Proof::By::unknowns)) return true;
   for (const double place : {0.25, 0.75}) {
-    if (is_leaf && try_part(of, place)) return true;
+    if (is_leaf && try_part(of, place, Proof::By::unknowns)) return true;
   }
+  if (is_leaf && try_part(of, kMiddle, Proof::By::data)) return true;
   if (!has_zero) return false;
   for (std::size_t v = 0; v < box.size(); ++v) {
     if (box[v].lo() == 0.0 || box[v].hi() == 0.0) part_[v] = Interval::raw(0.0, 0.0);
   }
-  return try_part(of, kMiddle);
+  return try_part(of, kMiddle, Proof::By::unknowns);
 }
 
 // A point of the search's core in terms of the proof's.
-bool Search::try_part(const CompiledCase& of, double place) {
+bool Search::try_part(const CompiledCase& of, double place, Proof::By by) {
   machine_.evaluate(of.search, {part_.data(), of.search.core()});
   machine_.evaluate_rest(of.search);
   for (std::size_t v = 0; v < of.candidate.size(); ++v) {
@@ -258,7 +259,7 @@ bool Search::try_part(const CompiledCase& of, double place) {
     if (x.is_empty()) return false;
     candidate_[v] = middle(x);
   }
-  return try_point(of, place);
+  return try_point(of, place, by);
 }
 
 // Data at a place within their play.
@@ -269,12 +270,12 @@ void Search::put_data(const Code& code, double place) {
   }
 }
 
-bool Search::try_point(const CompiledCase& of, double place) {
+bool Search::try_point(const CompiledCase& of, double place, Proof::By by) {
   if (!is_provable(of)) return false;
   const std::size_t core = of.proof.core();
   if (!find_domains(of.proof, of.proof_domains, true, proof_domains_)) return false;
   put_data(of.proof, place);
-  if (!proof_.find(of.proof, {candidate_.data(), core}, {proof_domains_.data(), core})) return false;
+  if (!proof_.find(of.proof, {candidate_.data(), core}, {proof_domains_.data(), core}, by)) return false;
   const Interval value = has_objective_ ? machine_.value(of.proof.wanted[0]) : Interval::raw(0.0, 0.0);
   if (has_objective_ && !machine_.is_defined(of.proof.wanted[0])) return false;
   if (finding_.is_found && !(value.hi() < finding_.best.hi())) return true;
@@ -298,14 +299,16 @@ void Search::note_size(std::span<const Interval> box) {
     sizes_[case_][v] = box[v].is_bounded() ? std::max(std::abs(box[v].lo()), std::abs(box[v].hi())) : 1.0;
 }
 
-// Whether to cut a box would tell no more: it is settled, or a speck on which the objective is known well
-// enough.
-bool Search::is_leaf(std::span<const Interval> box) const {
+// Whether to cut a box would tell no more: it is settled, or the objective is known well enough on it, and it
+// is a speck, or one of many: along a continuum of solutions that are equally good no cut tells anything.
+bool Search::is_leaf(std::span<const Interval> box) {
   constexpr double kSpeck = 1e-6, kKnown = 0.25;
+  constexpr std::size_t kMany = 64;  // more than the halvings down to a speck
   const std::uint64_t active = fronts_[case_].active;
   if (contraction_.is_settled() || active == 0) return true;
   if (!has_objective_ || !(contraction_.upper() - contraction_.lower() <= kKnown * limits_.precision))
     return false;
+  if (++fronts_[case_].known > kMany) return true;
   for (std::size_t v = 0; v < box.size(); ++v) {
     if (((active >> v) & 1U) != 0 && !(box[v].hi() - box[v].lo() <= kSpeck * sizes_[case_][v])) return false;
   }

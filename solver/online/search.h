@@ -65,13 +65,13 @@ class Search {
                     std::span<Interval> domains);
   void try_last(const CompiledCase& of);
   bool try_box(const CompiledCase& of, std::span<const Interval> box, bool is_leaf);
-  bool try_part(const CompiledCase& of, double place);
-  bool try_point(const CompiledCase& of, double place);
+  bool try_part(const CompiledCase& of, double place, Proof::By by);
+  bool try_point(const CompiledCase& of, double place, Proof::By by);
   void put_data(const Code& code, double place);
   void split(const Code& code, std::span<const Interval> box, double lower);
   void note_size(std::span<const Interval> box);
   [[nodiscard]] bool is_worth_trying(bool is_last);
-  [[nodiscard]] bool is_leaf(std::span<const Interval> box) const;
+  [[nodiscard]] bool is_leaf(std::span<const Interval> box);
   [[nodiscard]] double cut_off() const;
   [[nodiscard]] bool is_good_enough(double lower) const;
 
@@ -101,7 +101,7 @@ class Search {
   struct Front {
     std::uint64_t active = 0;  // the unknowns of the core that are no data
     bool is_free = false;      // equations leave some of them free: solutions are not only where boxes end
-    std::size_t boxes = 0;
+    std::size_t boxes = 0, known = 0;  // known: those on which the objective is known well enough
     Attempts at_ends, on_the_way;
   };
   std::vector<Front> fronts_;  // by case
