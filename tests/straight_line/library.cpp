@@ -55,7 +55,7 @@ void Library::read(Answer& answer) const {
       auto& spans = segment.joints.emplace_back();
       for (std::size_t order = 0; order < tubes.size(); ++order)
         spans[order] = span_of(tubes[order]->coefficients(k, i)[0]);
-      const std::vector<Interval>& last = tubes.back()->coefficients(k, i);
+      const std::span<const Interval> last = tubes.back()->coefficients(k, i);
       if (last.size() > 1) spans[tubes.size()] = span_of(last[1]);
     }
   }
