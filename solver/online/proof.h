@@ -29,6 +29,7 @@ class Proof {
   bool fill_matrix(std::uint64_t active);
   bool correct();
   bool is_closer();
+  double change_of(std::size_t k);
   bool holds_at_point();
   bool solve_exactly();
   bool precondition();
@@ -52,7 +53,7 @@ class Proof {
   std::vector<std::uint32_t> unknowns_;  // by column of the matrix
   bool is_kinked_ = false;               // kinks are within reach
   bool is_exact_ = false;                // in floating point all rows are 0
-  std::vector<double> point_;
+  std::vector<double> point_, changes_;  // changes_: what Newton's method made of each unknown last
   std::vector<std::uint8_t> is_active_, is_solved_;  // by test
   std::vector<std::uint32_t> rows_;                  // tests that are to be 0
   std::vector<double> least_;                        // by row: how near to 0 it was
