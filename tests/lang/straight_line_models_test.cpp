@@ -112,6 +112,49 @@ TEST(StraightLineModels, KnownOptima) {
       .expect(1 + 2 * std::sqrt(1e-3));
 }
 
+// In the last phase of jerk a motion is told in many ways, all of them as fast; what the state's last bits
+// make of it is within its play.
+TEST(StraightLineModels, PlansInTheLastPhaseAreTheFastest) {
+  Motion motion("type3", 3);
+  CompiledProblem& problem = motion.problem();
+  const std::vector<Numbers> ways{{0.7, -0.9, 0.4}, {-0.31, 0.2, 1.1}, {0.05, 0.013, -0.08}};
+  for (const Numbers& way : ways) {
+    for (int i = 1; i < 12; ++i) {
+      motion.with("p0", {0, 0, 0}).with("v0", {0, 0, 0}).with("a0", {0, 0, 0}).with("p1", way);
+      ASSERT_EQ(problem.solve(), OnlineStatus::solved);
+      const double end = problem.objective().hi(), last = problem.value(problem.variable("tau"))[9].lo();
+      const double left = last * i / 12.0;
+      const auto at = [&](const char* tube, std::size_t k) {
+        return problem.value(problem.tube(tube)).at(k, Interval(end - left)).mid();
+      };
+      Numbers p0, v0, a0;
+      for (std::size_t k = 0; k < 3; ++k) {
+        const double rho = problem.value(problem.variable("rho"))[k].mid();
+        p0.push_back(at("p", k));
+        v0.push_back(rho * at("w", 0));
+        a0.push_back(rho * at("b", 0));
+      }
+      motion.with("p0", p0).with("v0", v0).with("a0", a0);
+      EXPECT_EQ(problem.solve(), OnlineStatus::solved) << left;
+      EXPECT_LT(problem.boxes(), 300U);
+      EXPECT_LE(problem.objective().width(), 1e-8);
+      EXPECT_NEAR(problem.objective().hi(), left, 1e-6);
+    }
+  }
+}
+
+// From -0.5, at the limit, and accelerating, back to -0.5 and braking: the halves of a motion without a peak
+// of velocity would be of no length.
+TEST(StraightLineModels, ReturnsToTheLimitOfVelocity) {
+  Motion motion("type5", 1);
+  motion.with("vmax", {0.5}).with("amax", {0.5}).with("jmax", {7.75}).with("v0", {-0.5}).with("v1", {-0.5});
+  motion.with("a0", {0.25}).with("a1", {-0.25}).with("p1", {-1.75});
+  CompiledProblem& problem = motion.problem();
+  EXPECT_EQ(problem.solve(), OnlineStatus::solved);
+  EXPECT_LE(problem.objective().width(), 1e-9);
+  EXPECT_NEAR(problem.objective().hi(), 3.50071476245993, 1e-9);
+}
+
 // From w = 3 with limits of 1: to 1 in 0.5 s and 1 m, by an acceleration of 4; the rest of 3 m at 1, and to
 // rest.
 TEST(StraightLineModels, BrakeFromBeyondTheLimits) {
