@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "tests/straight_line/enumerator.h"
+#include "tests/straight_line/snap.h"
 
 namespace hcsp::straight_line {
 
@@ -36,16 +36,14 @@ Comparison compared_with_oracle(const Move& move, const Answer& answer) {
 }
 
 double least_with_snap(const Line& line, const Move& move) {
+  const Limits l = limits_on(line.rho, move);
+  if (!can_stop(line.from, l) || !can_have_started(line.to, l)) return 0;
   return fastest_along(line, of_type_five(move))->duration().convert_to<double>();
 }
 
 double enough_with_snap(const Line& line, const Move& move) {
   const Limits l = limits_on(line.rho, move);
-  Number snap = std::numeric_limits<double>::max();
-  for (std::size_t k = 0; k < line.rho.size(); ++k) {
-    if (line.rho[k] != 0) snap = std::min(snap, Number(move.dmax[k] / abs(line.rho[k])));
-  }
-  const Number h = (l.uh - l.ul) / snap;
+  const Number h = (l.uh - l.ul) / snap_on(line.rho, move);
   Line shorter = line;
   shorter.to.q -= (line.from.w + line.to.w) * h / 2;
   return (fastest_along(shorter, of_type_five(move))->duration() + h).convert_to<double>();

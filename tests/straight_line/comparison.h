@@ -17,7 +17,8 @@ struct Comparison {
 /// differ from those as little as the enclosures are wide.
 Comparison compared_with_oracle(const Move& move, const Answer& answer);
 
-/// Types VI to IX, from a state within the limits: no motion takes less, for it would be one of type V...
+/// Types VI to IX, between states within the limits of type V: no motion takes less, for it would be one of
+/// type V; 0 from and to other states...
 double least_with_snap(const Line& line, const Move& move);
 /// ...and with acceleration and jerk 0 at both ends one takes as much: the mean, over a time h, of a motion
 /// of type V that goes on with its velocities at both ends is within all limits, and its jerk, which differs

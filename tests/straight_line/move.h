@@ -40,6 +40,7 @@ std::vector<std::string> limits_of(int type);
 struct Line {
   std::vector<Number> rho;
   State from, to;
+  Number from_jerk = 0, to_jerk = 0;  ///< of types VI to IX
 };
 
 /// The limits of the coordinate q: the intersection of those of the joints.

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "tests/straight_line/snap.h"
+
 namespace hcsp::straight_line {
 
 namespace {
@@ -88,6 +90,25 @@ bool has(int type, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
+/// As well with snap limited: a jerk too.
+void draw_end_with_snap(Draw& draw, Kind kind, const Move& move, Line& line, bool is_target) {
+  const Limits l = limits_on(line.rho, move);
+  const Number snap = snap_on(line.rho, move);
+  const bool with_w = !is_target || has(move.type, "v1"), with_b = !is_target || has(move.type, "a1");
+  const bool with_u = !is_target || has(move.type, "j1");
+  for (int tries = 0;; ++tries) {
+    State s;
+    const double less = tries < 20 ? 1 : 0.5;
+    if (with_w) s.w = within(draw, kind, l.wl, l.wh) * less;
+    if (with_b) s.b = within(draw, kind, l.bl, l.bh) * less;
+    const Number u = with_u && draw.chance(0.5) ? within(draw, kind, l.ul, l.uh) * less : 0;
+    if (!(is_target ? can_have_started_with_snap : can_stop_with_snap)(s, u, l, snap)) continue;
+    (is_target ? line.to : line.from) = s;
+    (is_target ? line.to_jerk : line.from_jerk) = u;
+    return;
+  }
+}
+
 /// A velocity and an acceleration that a type has, admissible (backward in time for a target).
 State draw_end(Draw& draw, Kind kind, const Limits& l, bool with_w, bool with_b, bool is_target) {
   for (;;) {
@@ -124,8 +145,13 @@ void draw_target(Draw& draw, Kind kind, KnownMove& known) {
   const Move& move = known.move;
   const Limits l = limits_on(known.line.rho, move);
   const bool rests = kind == Kind::at_rest && draw.chance(0.5);
-  known.line.to =
-      draw_end(draw, kind, l, has(move.type, "v1") && !rests, has(move.type, "a1") && !rests, true);
+  known.line.to_jerk = 0;
+  if (move.type >= 6 && !rests) {
+    draw_end_with_snap(draw, kind, move, known.line, true);
+  } else {
+    known.line.to =
+        draw_end(draw, kind, l, has(move.type, "v1") && !rests, has(move.type, "a1") && !rests, true);
+  }
   known.line.to.q = draw_displacement(draw, kind, l);
 }
 
@@ -164,8 +190,8 @@ void write_vectors(KnownMove& known) {
   for (std::size_t k = 0; k < move.p1.size(); ++k) move.p1[k] += move.p0[k];
   move.v1 = along(line.rho, line.to.w);
   move.a1 = along(line.rho, line.to.b);
-  move.j0.assign(move.p0.size(), 0);
-  move.j1 = move.j0;
+  move.j0 = along(line.rho, line.from_jerk);
+  move.j1 = along(line.rho, line.to_jerk);
 }
 
 }  // namespace
@@ -189,16 +215,20 @@ KnownMove random_move(Draw& draw, int type, Kind kind, std::size_t joints) {
   if (kind == Kind::one_way) forbid_one_way(draw, move, known.line.rho);
   const Limits l = limits_on(known.line.rho, move);
   const bool with_b = type >= 3, rests = kind == Kind::at_rest;
-  known.line.from = kind == Kind::beyond || kind == Kind::overshooting
-                        ? draw_beyond(draw, l, with_b)
-                        : draw_end(draw, kind, l, !rests, with_b && !rests, false);
+  if (kind == Kind::beyond || kind == Kind::overshooting) {
+    known.line.from = draw_beyond(draw, l, with_b);
+  } else if (type >= 6 && !rests) {
+    draw_end_with_snap(draw, kind, move, known.line, false);
+  } else {
+    known.line.from = draw_end(draw, kind, l, !rests, with_b && !rests, false);
+  }
   for (std::size_t k = 0; k < joints; ++k) {
     const double p =
         draw.chance(0.2) ? 0 : draw.in(-2, 2) * (kind == Kind::scaled ? number(l.wh * l.wh / l.bh) : 1);
     move.p0.push_back(kind == Kind::round ? std::round(4 * p) / 4 : p);
   }
   draw_target(draw, kind, known);
-  if (kind == Kind::no_peak && type >= 3) bring_near(draw, move, known.line);
+  if (kind == Kind::no_peak && type >= 3 && type <= 5) bring_near(draw, move, known.line);
   write_vectors(known);
   return known;
 }
@@ -234,11 +264,12 @@ Move crooked(Draw& draw, const Move& move) {
   return other;
 }
 
-KnownMove replanned(Draw& draw, const KnownMove& known, const State& now) {
+KnownMove replanned(Draw& draw, const KnownMove& known, const State& now, double jerk) {
   KnownMove next = known;
   for (std::size_t k = 0; k < known.line.rho.size(); ++k)
     next.move.p0[k] += number(known.line.rho[k] * now.q);
   next.line.from = {0, now.w, now.b};
+  next.line.from_jerk = jerk;
   draw_target(draw, Kind::moving, next);
   write_vectors(next);
   next.move.line.clear();

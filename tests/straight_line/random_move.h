@@ -43,6 +43,6 @@ Move shaken(Draw& draw, const Move& move, double by);
 Move crooked(Draw& draw, const Move& move);
 
 /// Another target on the same line, admissible, from where the motion is: what a sensor event asks for.
-KnownMove replanned(Draw& draw, const KnownMove& known, const State& now);
+KnownMove replanned(Draw& draw, const KnownMove& known, const State& now, double jerk = 0);
 
 }  // namespace hcsp::straight_line
