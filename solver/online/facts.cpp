@@ -131,8 +131,14 @@ void Facts::find_range(NodeId id) {
     using Operator = typename decltype(known)::type;
     return std::pair(Operator::forward(a, b, c), Operator::defined(a, b, c));
   });
-  const bool are_defined = std::all_of(operands.begin(), operands.end(),
-                                       [&](NodeId operand) { return is_defined_[operand] != 0; });
+  // Of a choice that is decided the branch that is not taken need not be.
+  const NodeId untaken = node.op != Op::if_then_else ? id
+                         : operators::is_true(a)     ? operands[2]
+                         : operators::is_false(a)    ? operands[1]
+                                                     : id;
+  const bool are_defined = std::all_of(operands.begin(), operands.end(), [&](NodeId operand) {
+    return operand == untaken || is_defined_[operand] != 0;
+  });
   ranges_[id] = is_relation(node.op) ? truth(y, a, b, are_defined) : y;
   is_defined_[id] = is_boolean(node.op) || (are_defined && is_defined) ? 1 : 0;
 }
