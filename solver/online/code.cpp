@@ -104,8 +104,15 @@ Code::Code(Dag& dag, Prefix& prefix, Facts& facts, const View& view, std::size_t
     end_stage(stage);
   }
   find_real_path();
-  for (const Requirement& own : view.conditions)
+  const auto is_quotient = [&](NodeId id) {
+    const DagNode& of = dag[id];
+    return of.op == Op::div && std::ranges::count(view.nonzero, of.operands[1]) > 0;
+  };
+  for (const Requirement& own : view.conditions) {
     conditions.push_back(test(own, prefix.place(dag, own.root, givens_)));
+    if (!view.nonzero.empty())
+      conditions.back().is_of_quotient = std::ranges::any_of(needed_nodes(dag, {own.root}), is_quotient);
+  }
   for (const NodeId factor : view.nonzero) nonzero.push_back(prefix.place(dag, factor, givens_));
   for (const Bound& bound : view.bounds) {
     const auto v = std::find(view.core.begin(), view.core.end(), bound.variable);

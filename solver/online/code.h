@@ -78,6 +78,7 @@ struct Test {
   bool is_truth;    ///< of a Boolean
   bool is_implied;  ///< no constraint states it
   std::uint32_t name;
+  bool is_of_quotient = false;  ///< by what may be 0, and then it says nothing
 };
 
 /// Unknown v of the core is at most, or at least, what a register of the prefix holds.

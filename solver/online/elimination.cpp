@@ -231,6 +231,7 @@ class Eliminator {
     }
     for (Definition& definition : definitions_) definition.value = rewrite(definition.value);
     for (NodeId& node : wanted_) node = rewrite(node);
+    for (NodeId& node : nonzero_) node = rewrite(node);
     // What is dropped now is in terms of what is left already.
     for (std::size_t i = 0; i < dropped_before_; ++i) {
       const NodeId rewritten = rewrite(dropped_[i]);

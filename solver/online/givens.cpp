@@ -15,7 +15,7 @@ namespace {
 using Key = std::tuple<Register, double, double, bool>;
 Key key_of(const Test& test) { return {test.reg, test.wanted.lo(), test.wanted.hi(), test.strict}; }
 
-// Takes out the conditions that all codes have.
+// Takes out the conditions that all codes have, whatever divisors are.
 template <class CodeOf>
 std::vector<Test> take_shared(std::vector<CompiledCase>& cases, CodeOf code_of) {
   std::map<Key, std::size_t> counts;
@@ -23,7 +23,7 @@ std::vector<Test> take_shared(std::vector<CompiledCase>& cases, CodeOf code_of) 
     std::vector<Test>& conditions = code_of(one).conditions;
     std::map<Key, bool> seen;
     std::erase_if(conditions, [&](const Test& test) { return !seen.emplace(key_of(test), true).second; });
-    for (const Test& test : conditions) ++counts[key_of(test)];
+    for (const Test& test : conditions) counts[key_of(test)] += test.is_of_quotient ? 0 : 1;
   }
   const auto is_shared = [&](const Test& test) { return counts[key_of(test)] == cases.size(); };
   std::vector<Test> shared;
@@ -134,7 +134,10 @@ Givens share_givens(const Prefix& prefix, std::vector<CompiledCase>& cases) {
   const std::vector<Test> shared = take_shared(cases, [](CompiledCase& one) -> Code& { return one.search; });
   for (const Test& test : shared) (test.is_implied ? givens.reasons : givens.required).push_back(test);
   givens.certain = take_shared(cases, [](CompiledCase& one) -> Code& { return one.proof; });
-  const auto always = needed_by_many(needs, cases, needs.of(registers_of(givens.required)));
+  std::vector<Register> first = registers_of(givens.required);
+  for (const CompiledCase& one : cases)
+    first.insert(first.end(), one.search.nonzero.begin(), one.search.nonzero.end());
+  const auto always = needed_by_many(needs, cases, needs.of(first));
   givens.always = needs.code(always, std::vector<std::uint8_t>(always.size()));
   givens.late = needs.code(needs.of(registers_of(givens.reasons)), always);
   givens.proof = needs.code(needs.of(registers_of(givens.certain)), always);

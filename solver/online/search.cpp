@@ -131,12 +131,13 @@ bool Search::is_good_enough(double lower) const {
 
 // Lets a case's domains wait, unless parameters refute it.
 void Search::open(std::size_t number) {
-  if (is_refuted_by_givens(number)) return;
   const CompiledCase& of = cases_[number];
   const Code& code = of.search;
+  const bool is_regular = std::none_of(code.nonzero.begin(), code.nonzero.end(),
+                                       [&](Register factor) { return machine_.value(factor).contains(0.0); });
+  if (is_refuted_by_givens(number, is_regular)) return;
   case_ = number;
-  for (const Register factor : code.nonzero) {
-    if (!machine_.value(factor).contains(0.0)) continue;
+  if (!is_regular) {
     finding_.is_exhausted = true;  // nothing is known of what is defined by a division by 0
     finding_.lower = -kInfinity;
     return;
@@ -168,9 +169,10 @@ bool Search::is_refuted(std::span<const Test> tests) {
   return false;
 }
 
-bool Search::is_refuted_by_givens(std::size_t number) {
+// Where divisors may be 0 what their quotients say does not count.
+bool Search::is_refuted_by_givens(std::size_t number, bool is_regular) {
   const auto refutes = [&](const Test& test) {
-    if (machine_.is_possible(test)) return false;
+    if (machine_.is_possible(test) || (test.is_of_quotient && !is_regular)) return false;
     ++refutations_[test.name];
     return true;
   };

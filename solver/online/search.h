@@ -58,7 +58,7 @@ class Search {
   void explore();
   void look_at(std::span<Interval> box);
   bool is_refuted(std::span<const Test> tests);
-  bool is_refuted_by_givens(std::size_t number);
+  bool is_refuted_by_givens(std::size_t number, bool is_regular);
   bool is_out_of_reason();
   bool is_provable(const CompiledCase& of);
   bool find_domains(const Code& code, std::span<const Interval> declared, bool is_inner,

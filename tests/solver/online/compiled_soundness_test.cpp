@@ -98,6 +98,28 @@ TEST(CompiledSoundness, WhatWasDroppedKnowsWhatBecomesKnown) {
   }
 }
 
+// Where the factor by which y is eliminated is 0, y may be anything.
+TEST(CompiledSoundness, QuotientsByZeroRefuteNothing) {
+  Problem problem("factor");
+  const Expr p = problem(problem.parameter("p", Interval(2.0)));
+  const Expr q = problem(problem.parameter("q", Interval(2.0)));
+  const Expr n = problem(problem.integer("n", Interval(0.0, 1.0)));
+  const Expr y = problem(problem.real("y", Interval(-4.0, 4.0)));
+  problem.constrain("product", (n - p) * y == q);
+  problem.constrain("low", p <= Interval(3.0));
+  CompiledProblem compiled = compile(problem, y);
+  EXPECT_EQ(compiled.solve(), OnlineStatus::solved);
+  EXPECT_TRUE(compiled.objective().contains(-2.0));
+  compiled.set(compiled.parameter("p"), 1.0);
+  compiled.set(compiled.parameter("q"), 0.0);
+  EXPECT_NE(compiled.solve(), OnlineStatus::infeasible);
+  if (compiled.has_solution()) {
+    EXPECT_LE(compiled.objective().lo(), -4.0);
+  }
+  compiled.set(compiled.parameter("p"), 4.0);
+  EXPECT_EQ(compiled.solve(), OnlineStatus::infeasible);
+}
+
 TEST(CompiledSoundness, NothingNeedBeLeftToSearch) {
   Problem problem("no case");
   const Expr x = problem(problem.real("x", Interval(-1.0, 1.0)));
