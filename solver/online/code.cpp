@@ -132,7 +132,7 @@ Code::Code(Dag& dag, Prefix& prefix, Facts& facts, const View& view, std::size_t
 }
 
 Register Code::place(Dag& dag, Prefix& prefix, Facts& facts, NodeId node, std::vector<Instruction>& to) {
-  if (const Register* known = places_.find(node)) return *known;
+  if (const Register* known = places_.find(node); known != nullptr && is_available(*known)) return *known;
   const auto put = [&](Register reg) {
     places_.set(node, reg);
     return reg;
@@ -153,6 +153,11 @@ Register Code::place(Dag& dag, Prefix& prefix, Facts& facts, NodeId node, std::v
   return put(y);
 }
 
+bool Code::is_available(Register reg) const {
+  const Register own = reg & ~kOwn;
+  return (reg & kOwn) == 0 || own < later_.first || own >= later_.second;
+}
+
 // The values of a stage in a good order.
 void Code::end_stage(Stage stage) {
   const std::size_t first = stage == cheap ? 0 : ends[stage - 1].values;
@@ -164,6 +169,7 @@ void Code::end_stage(Stage stage) {
     nodes_[to++] = nodes_before[from];
   }
   ends[stage] = {tests.size(), values.size(), 0, 0};
+  ends_of_registers_[stage] = registers_;
 }
 
 // Derivatives of sums, choices and kinks come directly; the others' slopes from the operators' table.
@@ -172,12 +178,15 @@ void Code::add_chain(Dag& dag, Prefix& prefix, Facts& facts) {
   std::size_t i = 0;
   for (const Stage stage : {cheap, main, all}) {
     const std::size_t first_slope = slopes.size(), first_rule = chain.size();
+    // The values of later stages are of another box.
+    later_ = {ends_of_registers_[stage], ends_of_registers_[all]};
     for (; i < ends[stage].values; ++i) add_chain_rule(dag, prefix, facts, values[i], nodes[i]);
     reorder(slopes, first_slope, op_of);
     reorder(chain, first_rule, [](const ChainRule& rule) { return rule.kind; });
     ends[stage].slopes = slopes.size();
     ends[stage].chain = chain.size();
   }
+  later_ = {};
 }
 
 void Code::add_chain_rule(Dag& dag, Prefix& prefix, Facts& facts, const Instruction& at, NodeId node) {

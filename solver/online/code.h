@@ -137,11 +137,14 @@ class Code {
                     ChainRule& rule);
   void find_real_path();
   void end_stage(Stage stage);
+  [[nodiscard]] bool is_available(Register reg) const;
 
   std::size_t core_;
   Register first_ = 0, registers_;
-  NodeMap places_, givens_;    // of nodes; of the prefix
-  std::vector<NodeId> nodes_;  // by instruction of `values`
+  NodeMap places_, givens_;                      // of nodes; of the prefix
+  std::array<Register, 3> ends_of_registers_{};  // by stage
+  std::pair<Register, Register> later_{};        // own registers from the first to below the second
+  std::vector<NodeId> nodes_;                    // by instruction of `values`
   std::map<std::vector<std::pair<NodeId, int>>, std::uint32_t> surface_of_;
 };
 

@@ -120,6 +120,22 @@ TEST(CompiledSoundness, QuotientsByZeroRefuteNothing) {
   EXPECT_EQ(compiled.solve(), OnlineStatus::infeasible);
 }
 
+// The slope 2 x of x^2 is a value that the inequality has, which is evaluated later than the equation.
+TEST(CompiledSoundness, SlopesAreOfTheBoxAtHand) {
+  Problem problem("slopes");
+  const Expr p = problem(problem.parameter("p", Interval(2.25)));
+  const Expr x = problem(problem.real("x", Interval(0.0, 4.0)));
+  const Expr two = problem.constant(Interval(2.0));
+  problem.constrain("kinked", p == sqr(x) + x - max(p, x) * x && two * x < sqr(x));
+  CompiledProblem compiled = compile(problem, sqrt(sqr(x)));
+  for (const double value : {2.25, 2.5, 3.0, 2.125}) {
+    ASSERT_TRUE(compiled.set(compiled.parameter("p"), value));
+    ASSERT_EQ(compiled.solve(), OnlineStatus::solved);
+    EXPECT_TRUE(real_value(compiled, "x").contains(value)) << value;
+    EXPECT_TRUE(compiled.objective().contains(value)) << value;
+  }
+}
+
 TEST(CompiledSoundness, NothingNeedBeLeftToSearch) {
   Problem problem("no case");
   const Expr x = problem(problem.real("x", Interval(-1.0, 1.0)));
