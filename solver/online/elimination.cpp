@@ -40,7 +40,9 @@ class Eliminator {
     view.wanted = wanted_;
     for (const Statement& statement : statements_) {
       std::optional<Requirement> requirement = requirement_of(statement);
-      if (requirement) requirement->is_implied = statement.is_implied;
+      if (!requirement) continue;
+      requirement->is_implied = statement.is_implied;
+      requirement->is_alternative = statement.is_alternative;
       add(view, requirement);
     }
     for (const Definition& definition : definitions_) add_domain(view, definition, name_of);

@@ -14,6 +14,7 @@ namespace {
 
 constexpr std::size_t kMostWaiting = 4096;
 constexpr double kMiddle = 0.5;
+constexpr std::uint32_t kStated = 256;  // how much more a refutation tells than that of an alternative
 
 template <class SizeOf>
 std::size_t most(const std::vector<CompiledCase>& cases, SizeOf size_of) {
@@ -77,7 +78,7 @@ Search::Search(Machine& machine, const std::vector<CompiledCase>& cases, const G
     sizes_.emplace_back(cases[i].search.core());
     const Code& code = cases[i].search;
     likely_.push_back(code.quick > 0 ? code.conditions[0]
-                                     : Test{0, Interval::entire(), false, false, false, false, 0});
+                                     : Test{0, Interval::entire(), false, false, false, false, false, 0});
   }
 }
 
@@ -173,7 +174,7 @@ bool Search::is_refuted(std::span<const Test> tests) {
 bool Search::is_refuted_by_givens(std::size_t number, bool is_regular) {
   const auto refutes = [&](const Test& test) {
     if (machine_.is_possible(test) || (test.is_of_quotient && !is_regular)) return false;
-    ++refutations_[test.name];
+    refutations_[test.name] += test.is_alternative ? 1 : kStated;
     return true;
   };
   const Code& code = cases_[number].search;
@@ -355,7 +356,7 @@ void Search::look_at(std::span<Interval> box) {
   const std::span<const double> near =
       is_near ? std::span<const double>(last_[case_].search) : std::span<const double>{};
   const auto refuted = [&] {
-    if (contraction_.refuted_by() != Contraction::kBound) ++refutations_[contraction_.refuted_by()];
+    if (contraction_.refuted_by() != Contraction::kBound) refutations_[contraction_.refuted_by()] += kStated;
   };
   if (!contraction_.contract(of.search, box, front.active, cut_off(), near)) return refuted();
   if (front.boxes++ == 0) note_size(box);

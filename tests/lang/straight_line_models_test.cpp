@@ -191,6 +191,36 @@ TEST(StraightLineModels, OneJointWaitsForTheOthers) {
   EXPECT_EQ(joint.reason(), "acceleration");
 }
 
+// The optimum with limits of jerk only is a lower bound, and what is told comes close to it.
+TEST(StraightLineModels, ALowerBoundOfEveryMotionIsTold) {
+  Motion motion("type8", 2), relaxed("type5", 2);
+  for (const double way : {0.02, 0.3, 4.0}) {
+    for (const double start : {-0.4, 0.0, 0.5}) {
+      for (const double acceleration : {-0.3, 0.0, 0.3}) {
+        for (Motion* of : {&motion, &relaxed}) {
+          of->with("p1", {way, -2 * way}).with("vmax", {1, 1}).with("amax", {2, 3}).with("jmax", {20, 15});
+          of->with("v0", {0.5 * start, -start}).with("a0", {0.5 * acceleration, -acceleration});
+          of->problem().solve();
+        }
+        CompiledProblem &own = motion.problem(), &other = relaxed.problem();
+        ASSERT_TRUE(own.has_solution() && other.has_solution());
+        const Interval bound = own.value(own.variable("T_lower"))[0];
+        EXPECT_LE(bound.lo(), other.objective().hi()) << way << ' ' << start << ' ' << acceleration;
+        EXPECT_LE(bound.lo(), own.objective().hi());
+        if (start == 0.0 && acceleration == 0.0) EXPECT_GE(bound.lo(), 0.999 * other.objective().hi());
+      }
+    }
+  }
+  motion.with("v0", {1, -2}).problem().solve();
+  EXPECT_EQ(motion.problem().value(motion.problem().variable("T_lower"))[0], Interval(0));
+}
+
+// A target that cannot be kept within the limits: the choice of a line is not to blame.
+TEST(StraightLineModels, ATargetBeyondLimitsIsNamed) {
+  Motion motion("type9", 2);
+  motion.with("p1", {1, 1}).with("v1", {0.99, 0.99}).with("a1", {-1, -1}).expect_infeasible("target");
+}
+
 TEST(StraightLineModels, TellWhatBreaksTheLine) {
   Motion motion("type5", 3);
   motion.with("p1", {1, 2, 0.5}).with("v0", {0.1, 0.2, 0.05}).with("a1", {0.1, 0.2, 0.05001});
