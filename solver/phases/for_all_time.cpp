@@ -49,10 +49,12 @@ Expr vertex_is_negative(const LocalPolynomial& p, const LocalPolynomial& q, Expr
   const Expr rise = positive_part(difference(slope_at_start(p), slope_at_start(q)));
   const Expr fall = positive_part(difference(slope_at_end(q, duration), slope_at_end(p, duration)));
   const Expr zero = number(rise.dag(), 0.0), start = difference(p.coefficients[0], q.coefficients[0]);
-  const Expr both = product(number(rise.dag(), 2.0), product(start, sum(rise, fall)));
-  const Expr height = sum(both, product(duration, product(rise, rise)));
+  const Expr twice = product(number(rise.dag(), 2.0), start), growth = product(duration, rise);
+  const Expr height = sum(product(twice, sum(rise, fall)), product(growth, rise));
   if (strict) return !(rise > zero && fall > zero) || height < zero;
-  return ordered(product(product(rise, fall), height), zero, false);
+  const Expr all = product(product(rise, fall), height);
+  return all.dag()[all.node()].op == Op::constant ? ordered(all, zero, false)
+                                                  : min(all, sum(twice, growth)) <= zero;
 }
 
 // Whether a linear or quadratic polynomial is nowhere negative, by the same argument.
