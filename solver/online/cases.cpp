@@ -88,9 +88,7 @@ class Splitter {
       Case chosen = one;
       chosen.chosen[whole] = value;
       for (Statement& statement : chosen.statements) statement.relation = rewrite(statement.relation);
-      for (auto* nodes : {&chosen.wanted, &chosen.dropped}) {
-        for (NodeId& node : *nodes) node = rewrite(node);
-      }
+      for (NodeId& node : chosen.wanted) node = rewrite(node);
       split(chosen);
     }
   }
@@ -113,9 +111,8 @@ class Splitter {
 
   // Once for all cases that follow. False where there was nothing to do.
   bool substitute_givens(Case& one) {
-    Rewriter rewrite(dag_, dag_, &one.dropped), careful(dag_, dag_);
-    rewrite.leave_truths_to(careful);
-    const std::size_t before = one.definitions.size(), dropped_before = one.dropped.size();
+    Rewriter rewrite(dag_, dag_);  // drops nothing, so that what is one node remains one
+    const std::size_t before = one.definitions.size();
     std::erase_if(one.statements, [&](const Statement& statement) {
       const auto definition = statement.is_implied ? std::nullopt : given_by(statement.relation);
       if (!definition) return false;
@@ -123,18 +120,13 @@ class Splitter {
           std::none_of(one.definitions.begin(), one.definitions.end(),
                        [&](const auto& known) { return known.variable == definition->variable; });
       if (!is_new) return false;
-      for (Rewriter* own : {&rewrite, &careful})
-        own->replace(dag_.input(definition->variable), definition->value);
+      rewrite.replace(dag_.input(definition->variable), definition->value);
       one.definitions.push_back(*definition);
       return true;
     });
     if (one.definitions.size() == before) return false;
     for (Statement& statement : one.statements) statement.relation = rewrite(statement.relation);
     for (NodeId& node : one.wanted) node = rewrite(node);
-    for (std::size_t i = 0; i < dropped_before; ++i) {
-      const NodeId rewritten = rewrite(one.dropped[i]);
-      one.dropped[i] = rewritten;
-    }
     return true;
   }
 

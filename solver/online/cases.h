@@ -31,10 +31,8 @@ struct Case {
   std::vector<NodeId> wanted;         ///< the objective, and other expressions, in this case
   std::size_t objectives = 0;         ///< 1 where there is an objective; search wants nothing else
   std::map<Input, double> chosen;     ///< the whole numbers' values
-  /// Of unknowns that constraints equate to what parameters decide: nothing else speaks of them any more. And
-  /// what has to be defined for that.
+  /// Of unknowns that constraints equate to what parameters decide: nothing else speaks of them any more.
   std::vector<Definition> definitions;
-  std::vector<NodeId> dropped;
 };
 
 /// Every solution is in one of the cases at least; where there is none for sure one case says "false" by the

@@ -83,9 +83,7 @@ Case copy_of(const Case& one, const Dag& from, Dag& to) {
   Case copy = one;
   for (Statement& statement : copy.statements) statement.relation = import(statement.relation);
   for (Definition& definition : copy.definitions) definition.value = import(definition.value);
-  for (auto* nodes : {&copy.wanted, &copy.dropped}) {
-    for (NodeId& node : *nodes) node = import(node);
-  }
+  for (NodeId& node : copy.wanted) node = import(node);
   return copy;
 }
 

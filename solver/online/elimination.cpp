@@ -20,9 +20,7 @@ class Eliminator {
         unknowns_(unknowns),
         purpose_(purpose),
         wanted_(one.wanted),
-        definitions_(one.definitions),
-        dropped_(one.dropped),
-        dropped_before_(one.dropped.size()) {
+        definitions_(one.definitions) {
     if (purpose == Purpose::search) wanted_.resize(one.objectives);
     for (const Statement& statement : one.statements) {
       if (purpose == Purpose::search || !statement.is_implied) statements_.push_back(statement);
@@ -328,7 +326,7 @@ class Eliminator {
   std::vector<NodeId> nonzero_;
   std::set<Input> data_;
   std::vector<NodeId> dropped_;  // what has to be defined, though nothing is made of its value
-  std::size_t dropped_before_;
+  std::size_t dropped_before_ = 0;
 };
 
 }  // namespace
