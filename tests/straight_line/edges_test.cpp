@@ -94,14 +94,15 @@ class Edges : public OneType {
   }
 
   void inadmissible_targets() {
-    if (has("v1")) expect_infeasible("too fast", on_line(type(), {}, {2, 1.01}), "target");
-    if (has("v1")) expect_infeasible("too fast backward", on_line(type(), {}, {2, -1.01}), "target");
+    const std::string why = type() <= 5 ? "target" : "target|choice";
+    if (has("v1")) expect_infeasible("too fast", on_line(type(), {}, {2, 1.01}), why);
+    if (has("v1")) expect_infeasible("too fast backward", on_line(type(), {}, {2, -1.01}), why);
     if (has("a1")) {
-      expect_infeasible("too great an acceleration", on_line(type(), {}, {2, 0, 2.02}), "target");
-      expect_infeasible("has been too fast", on_line(type(), {}, {2, 0.96, -1.9}), "target");
-      expect_infeasible("has been too slow", on_line(type(), {}, {2, -0.96, 1.9}), "target");
+      expect_infeasible("too great an acceleration", on_line(type(), {}, {2, 0, 2.02}), why);
+      expect_infeasible("has been too fast", on_line(type(), {}, {2, 0.96, -1.9}), why);
+      expect_infeasible("has been too slow", on_line(type(), {}, {2, -0.96, 1.9}), why);
     }
-    if (has("j1")) expect_infeasible("too great a jerk", on_line(type(), {}, {2, 0, 0, 21}), "target");
+    if (has("j1")) expect_infeasible("too great a jerk", on_line(type(), {}, {2, 0, 0, 21}), why);
     Move move = on_line(type(), {}, {2});
     move.vmax[0] = 0;
     expect_infeasible("the other way only", move, "target|choice|direction.*");
@@ -167,7 +168,8 @@ class Edges : public OneType {
       }
       SCOPED_TRACE(::testing::Message() << length << " of length, " << time << " of time");
       const Answer answer = library().solve(other);
-      EXPECT_EQ(answer.status, "solved") << answer.reason;
+      const bool open = type() >= 6 && length < 1e-6;
+      EXPECT_TRUE(answer.status == "solved" || (open && answer.status == "undecided")) << answer.reason;
       if (answer.status != "solved" || plain.status != "solved") continue;
       EXPECT_THAT(faults(other, answer), IsEmpty());
       EXPECT_NEAR(answer.bracket.lo / time, plain.bracket.lo, 2e-9);

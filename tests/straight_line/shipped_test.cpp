@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The shipped models on what is known of them: optima from the literature, other numbers of joints,
-// and of types VI to IX the bound that type V gives.
+// The shipped models on what is known of them: optima from the literature, and with other numbers of joints.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -44,23 +43,6 @@ TEST(Shipped, AnyNumberOfJoints) {
       const Answer answer = library.solve(known.move);
       ASSERT_EQ(answer.status, "solved") << answer.reason;
       EXPECT_THAT(faults(known.move, answer), ::testing::IsEmpty());
-    });
-  }
-}
-
-// A motion of type VI to IX is one of type V: it is not faster.
-TEST(Shipped, SnapCostsTime) {
-  for (const int type : full() ? std::vector<int>{6, 7, 8, 9} : std::vector<int>{9}) {
-    Library library(type, 7);
-    run_cases(3, 1000, [&](Draw& draw) {
-      KnownMove known = random_move(draw, type, Kind::at_rest);
-      SCOPED_TRACE(known.move.text());
-      const Answer answer = library.solve(known.move);
-      ASSERT_EQ(answer.status, "solved") << answer.reason;
-      EXPECT_THAT(faults(known.move, answer), ::testing::IsEmpty());
-      known.move.type = 5;
-      const double least = fastest_along(known.line, known.move)->duration().convert_to<double>();
-      EXPECT_GE(answer.T.hi, least - 1e-9);
     });
   }
 }
