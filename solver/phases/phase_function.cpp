@@ -11,8 +11,9 @@ namespace hcsp {
 
 namespace {
 
-// No model means more; a product of products doubles the degree each time.
-constexpr std::size_t kHighestDegree = 64;
+// No model means more; a product of products doubles the degree each time. Binomials of higher degrees are no
+// doubles.
+constexpr std::size_t kHighestDegree = 48;
 
 LocalPolynomial trimmed(std::vector<Expr> coefficients) {
   while (coefficients.size() > 1 && folding::is_number(coefficients.back(), 0.0)) coefficients.pop_back();

@@ -48,12 +48,14 @@ struct RandomPosed {
     for (int i = 0; i < parameters; ++i) add_parameter(fmt::format("p{}", i));
     for (int i = 0; i < reals; ++i) add_unknown(fmt::format("x{}", i));
     for (int i = 0; i < booleans; ++i) add_boolean(fmt::format("b{}", i));
+    if (one_in(random, 4)) add_data();
     const int relations = 1 + below(random, reals + 2);
     for (int i = 0; i < relations; ++i) {
       const Expr relation = stated(i);
       problem.constrain(fmt::format("c{}", i), relation);
       all.push_back(relation);
     }
+    if (one_in(random, 4)) add_truism();
     objective.push_back(one_in(random, 2) ? unknown() : term(2));
   }
 
@@ -64,6 +66,10 @@ struct RandomPosed {
   std::vector<Interval> declared;
   std::vector<Side> sides;
   std::vector<Expr> all, objective;
+  struct Data {
+    VariableId unknown, least, play;
+  };
+  std::optional<Data> data;
 
   /// A point with quarters for coordinates.
   Point draw_point(Random& draw) const {
@@ -77,6 +83,9 @@ struct RandomPosed {
   }
   /// Whether a point certainly is a solution.
   [[nodiscard]] bool certainly_solves(const Point& point) const {
+    for (std::size_t i = 0; i < unknowns.size(); ++i) {
+      if (!leq(point.at(unknowns[i]), declared[i])) return false;
+    }
     return std::all_of(all.begin(), all.end(), [&](Expr relation) {
       const auto truth = value_at(relation, point);
       return truth && truth->lo() == 1.0;
@@ -128,6 +137,23 @@ struct RandomPosed {
     const BooleanVariable own = problem.boolean(name);
     note(own.id, true, false, Interval(0.0, 1.0));
     flags.push_back(problem(own));
+  }
+
+  // A number within a little play of a parameter, which other parameters make wide, or negative.
+  void add_data() {
+    const Expr least = problem(parameters[0]);
+    add_unknown("d");
+    parameters.push_back(problem.parameter("w", domain_of("w", Interval(1e-12))));
+    const Expr own = numbers.back(), most = least + problem(parameters.back());
+    all.push_back(least <= own);
+    all.push_back(own <= most);
+    problem.constrain("play", all[0] && all[1]);
+    data = {unknowns.back(), parameters[0].id, parameters.back().id};
+  }
+  // What tells cases apart, and excludes nothing.
+  void add_truism() {
+    const Expr x = unknown();
+    problem.imply("sides", x == abs(x) || x == -abs(x));
   }
 
   Expr constant() { return problem.constant(Interval(0.5 * (below(random, 9) - 4))); }
