@@ -61,6 +61,7 @@ Search::Search(Machine& machine, const std::vector<CompiledCase>& cases, const G
       limits_(limits),
       order_(cases.size()),
       refutations_(names),
+      counted_in_(names),
       last_(cases.size()),
       provable_(cases.size()),
       fronts_(cases.size()),
@@ -98,10 +99,12 @@ const Finding& Search::run() {
   // Of boxes of which nothing is known yet the last that came is the first to be looked at.
   for (std::size_t i = order_.size(); i-- > 0;) open(order_[i]);
   // Where no case is what it was, there may be no solution any more.
-  const bool is_familiar = !waiting_.empty() && last_[waiting_.owner()].is_known;
+  const bool is_refuted_at_once = waiting_.empty();
+  const bool is_familiar = !is_refuted_at_once && last_[waiting_.owner()].is_known;
   if (!is_familiar && is_out_of_reason()) return finding_;
   explore();
   if (!finding_.is_found) {
+    if (is_refuted_at_once) count_refutations();
     finding_.refuted_by = static_cast<std::uint32_t>(
         std::max_element(refutations_.begin(), refutations_.end()) - refutations_.begin());
     if (is_familiar) is_out_of_reason();
@@ -111,6 +114,21 @@ const Finding& Search::run() {
   std::rotate(order_.begin(), place, place + 1);
   finding_.lower = std::min(finding_.lower, finding_.best.lo());
   return finding_;
+}
+
+// Of all conditions, not only the first that refutes: what refutes most cases is the reason.
+void Search::count_refutations() {
+  std::fill(refutations_.begin(), refutations_.end(), 0U);
+  for (std::size_t i = 0; i < cases_.size(); ++i) {
+    const Code& code = cases_[i].search;
+    machine_.evaluate(code.prelude);
+    for (const Test& test : code.conditions) {
+      if (counted_in_[test.name] == i + 1 || machine_.is_possible(test)) continue;
+      refutations_[test.name] += test.is_alternative ? 1 : kStated;
+      counted_in_[test.name] = i + 1;
+    }
+  }
+  std::fill(counted_in_.begin(), counted_in_.end(), std::size_t{0});
 }
 
 // Whether a relation that all cases have, though only implied, tells that there is no solution, and which.
