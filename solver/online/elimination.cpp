@@ -11,6 +11,11 @@ namespace hcsp::online {
 
 namespace {
 
+// Whether a result is defined wherever all operands are, and nowhere else.
+bool is_total_operator(Op op) {
+  return with_operator(op, [](auto known) { return operators::is_total<typename decltype(known)::type>; });
+}
+
 class Eliminator {
  public:
   Eliminator(Dag& dag, Facts& facts, Facts& first, const Case& one, const Unknowns& unknowns, Purpose purpose)
@@ -295,9 +300,28 @@ class Eliminator {
     return Requirement{root, Interval::entire(), false, name};
   }
 
+  // An expression is defined where those parts of it are that may not be. Of a choice only the branch that is
+  // taken has to be: it stays whole.
+  void add_partial_parts(View& view, const Requirement& whole, NodeId node) {
+    if (dag_[node].is_total || !defined_.insert(node).second) return;
+    const DagNode of = dag_[node];
+    const int arity = operator_entry(of.op).arity;
+    if (arity == 0 || is_boolean(of.op) || !is_total_operator(of.op)) {
+      Requirement part = whole;
+      part.root = node;
+      return add_whole(view, part);
+    }
+    for (int k = 0; k < arity; ++k) add_partial_parts(view, whole, of.operands[static_cast<std::size_t>(k)]);
+  }
+
   void add(View& view, const std::optional<Requirement>& requirement) {
     if (!requirement) return;
-    (facts_.is_given(requirement->root) ? view.conditions : view.requirements).push_back(*requirement);
+    if (requirement->wanted.is_entire()) return add_partial_parts(view, *requirement, requirement->root);
+    add_whole(view, *requirement);
+  }
+
+  void add_whole(View& view, const Requirement& requirement) {
+    (facts_.is_given(requirement.root) ? view.conditions : view.requirements).push_back(requirement);
   }
 
   // A defined unknown has its declared domain, and is defined.
@@ -325,6 +349,7 @@ class Eliminator {
   std::vector<Definition> definitions_;
   std::vector<NodeId> nonzero_;
   std::set<Input> data_;
+  std::set<NodeId> defined_;     // what is asked for to be defined, and its parts
   std::vector<NodeId> dropped_;  // what has to be defined, though nothing is made of its value
   std::size_t dropped_before_ = 0;
 };

@@ -152,11 +152,10 @@ bool Search::is_good_enough(double lower) const {
 void Search::open(std::size_t number) {
   const CompiledCase& of = cases_[number];
   const Code& code = of.search;
-  const bool is_regular = std::none_of(code.nonzero.begin(), code.nonzero.end(),
-                                       [&](Register factor) { return machine_.value(factor).contains(0.0); });
+  bool is_regular = true;  // no divisor may be 0
   if (is_refuted_by_givens(number, is_regular)) return;
   case_ = number;
-  if (!is_regular) {
+  if (!is_regular || !waiting_.has_room_for(1)) {
     finding_.is_exhausted = true;  // nothing is known of what is defined by a division by 0
     finding_.lower = -kInfinity;
     return;
@@ -170,11 +169,6 @@ void Search::open(std::size_t number) {
   const auto equations =
       std::count_if(code.tests.begin(), code.tests.end(), [](const Test& test) { return test.is_equation; });
   front.is_free = has_objective_ && equations < __builtin_popcountll(front.active);
-  if (!waiting_.has_room_for(1)) {
-    finding_.is_exhausted = true;
-    finding_.lower = -kInfinity;
-    return;
-  }
   waiting_.push({domains_.data(), code.core()}, static_cast<std::uint32_t>(number), -kInfinity);
 }
 
@@ -189,14 +183,17 @@ bool Search::is_refuted(std::span<const Test> tests) {
 }
 
 // Where divisors may be 0 what their quotients say does not count.
-bool Search::is_refuted_by_givens(std::size_t number, bool is_regular) {
+bool Search::is_refuted_by_givens(std::size_t number, bool& is_regular) {
   const auto refutes = [&](const Test& test) {
     if (machine_.is_possible(test) || (test.is_of_quotient && !is_regular)) return false;
     refutations_[test.name] += test.is_alternative ? 1 : kStated;
     return true;
   };
   const Code& code = cases_[number].search;
-  if (code.quick > 0 && refutes(likely_[number])) return true;
+  const Test& likely = likely_[number];
+  if (code.quick > 0 && !likely.is_of_quotient && refutes(likely)) return true;
+  is_regular = std::none_of(code.nonzero.begin(), code.nonzero.end(),
+                            [&](Register factor) { return machine_.value(factor).contains(0.0); });
   const std::span<const Test> conditions = code.conditions;
   for (const Test& test : conditions.first(code.quick)) {
     if (!refutes(test)) continue;

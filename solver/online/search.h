@@ -58,7 +58,7 @@ class Search {
   void explore();
   void look_at(std::span<Interval> box);
   bool is_refuted(std::span<const Test> tests);
-  bool is_refuted_by_givens(std::size_t number, bool is_regular);
+  bool is_refuted_by_givens(std::size_t number, bool& is_regular);
   bool is_out_of_reason();
   void count_refutations();
   bool is_provable(const CompiledCase& of);
