@@ -47,7 +47,7 @@ class Splitter {
     for (const NodeId part : hcsp::operands_of(dag_, without_negation(statement.relation), Op::logical_and)) {
       if (facts_.range(part).hi() == 0.0) return false;
       if (is_number(dag_, part, 1.0)) continue;
-      to.push_back({part, statement.name, statement.is_implied, statement.is_alternative});
+      to.push_back({part, statement.name, statement.is_implied});
     }
     return true;
   }
@@ -159,7 +159,6 @@ class Splitter {
     for (const NodeId alternative : alternatives) {
       Case chosen = one;
       chosen.statements[i].relation = alternative;
-      chosen.statements[i].is_alternative = true;
       split(chosen);
     }
   }

@@ -17,7 +17,6 @@ struct Statement {
   NodeId relation;
   std::uint32_t name;  ///< among the names of what was stated
   bool is_implied;
-  bool is_alternative = false;  ///< one of those of a statement: where it does not hold another may
 };
 
 /// variable == value.

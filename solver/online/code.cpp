@@ -89,14 +89,9 @@ Code::Code(Dag& dag, Prefix& prefix, Facts& facts, const View& view, std::size_t
     depends.push_back(std::uint64_t{1} << i);
   }
   const auto test = [&](const Requirement& own, Register reg) {
-    return Test{reg,
-                own.wanted,
-                own.strict,
-                own.is_equation(),
-                is_boolean(dag[own.root].op),
-                own.is_implied,
-                own.is_alternative,
-                own.name};
+    return Test{
+        reg,     own.wanted, own.strict, own.is_equation(), is_boolean(dag[own.root].op), own.is_implied,
+        own.name};
   };
   const std::vector<Ranked> ranked = ranked_requirements(facts, view, purpose);
   for (const Stage stage : {cheap, main, all}) {

@@ -75,9 +75,8 @@ struct Test {
   Interval wanted;
   bool strict;
   bool is_equation;
-  bool is_truth;        ///< of a Boolean
-  bool is_implied;      ///< no constraint states it
-  bool is_alternative;  ///< another may hold instead
+  bool is_truth;    ///< of a Boolean
+  bool is_implied;  ///< no constraint states it
   std::uint32_t name;
   bool is_of_quotient = false;  ///< by what may be 0, and then it says nothing
 };

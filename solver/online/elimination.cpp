@@ -45,7 +45,6 @@ class Eliminator {
       std::optional<Requirement> requirement = requirement_of(statement);
       if (!requirement) continue;
       requirement->is_implied = statement.is_implied;
-      requirement->is_alternative = statement.is_alternative;
       add(view, requirement);
     }
     for (const Definition& definition : definitions_) add_domain(view, definition, name_of);

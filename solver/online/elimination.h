@@ -16,7 +16,7 @@ struct Requirement {
   Interval wanted;  ///< [1, 1] of Booleans, {0} of equations, a ray or all numbers otherwise
   bool strict;      ///< the finite bound itself is not allowed
   std::uint32_t name;
-  bool is_implied = false, is_alternative = false;
+  bool is_implied = false;
   [[nodiscard]] bool is_equation() const { return wanted.is_point() && wanted.lo() == 0.0; }
 };
 

@@ -14,7 +14,6 @@ namespace {
 
 constexpr std::size_t kMostWaiting = 4096;
 constexpr double kMiddle = 0.5;
-constexpr std::uint32_t kStated = 256;  // how much more a refutation tells than that of an alternative
 
 template <class SizeOf>
 std::size_t most(const std::vector<CompiledCase>& cases, SizeOf size_of) {
@@ -61,7 +60,6 @@ Search::Search(Machine& machine, const std::vector<CompiledCase>& cases, const G
       limits_(limits),
       order_(cases.size()),
       refutations_(names),
-      counted_in_(names),
       last_(cases.size()),
       provable_(cases.size()),
       fronts_(cases.size()),
@@ -79,7 +77,7 @@ Search::Search(Machine& machine, const std::vector<CompiledCase>& cases, const G
     sizes_.emplace_back(cases[i].search.core());
     const Code& code = cases[i].search;
     likely_.push_back(code.quick > 0 ? code.conditions[0]
-                                     : Test{0, Interval::entire(), false, false, false, false, false, 0});
+                                     : Test{0, Interval::entire(), false, false, false, false, 0});
   }
 }
 
@@ -99,12 +97,10 @@ const Finding& Search::run() {
   // Of boxes of which nothing is known yet the last that came is the first to be looked at.
   for (std::size_t i = order_.size(); i-- > 0;) open(order_[i]);
   // Where no case is what it was, there may be no solution any more.
-  const bool is_refuted_at_once = waiting_.empty();
-  const bool is_familiar = !is_refuted_at_once && last_[waiting_.owner()].is_known;
+  const bool is_familiar = !waiting_.empty() && last_[waiting_.owner()].is_known;
   if (!is_familiar && is_out_of_reason()) return finding_;
   explore();
   if (!finding_.is_found) {
-    if (is_refuted_at_once) count_refutations();
     finding_.refuted_by = static_cast<std::uint32_t>(
         std::max_element(refutations_.begin(), refutations_.end()) - refutations_.begin());
     if (is_familiar) is_out_of_reason();
@@ -114,21 +110,6 @@ const Finding& Search::run() {
   std::rotate(order_.begin(), place, place + 1);
   finding_.lower = std::min(finding_.lower, finding_.best.lo());
   return finding_;
-}
-
-// Of all conditions, not only the first that refutes: what refutes most cases is the reason.
-void Search::count_refutations() {
-  std::fill(refutations_.begin(), refutations_.end(), 0U);
-  for (std::size_t i = 0; i < cases_.size(); ++i) {
-    const Code& code = cases_[i].search;
-    machine_.evaluate(code.prelude);
-    for (const Test& test : code.conditions) {
-      if (counted_in_[test.name] == i + 1 || machine_.is_possible(test)) continue;
-      refutations_[test.name] += test.is_alternative ? 1 : kStated;
-      counted_in_[test.name] = i + 1;
-    }
-  }
-  std::fill(counted_in_.begin(), counted_in_.end(), std::size_t{0});
 }
 
 // Whether a relation that all cases have, though only implied, tells that there is no solution, and which.
@@ -186,7 +167,7 @@ bool Search::is_refuted(std::span<const Test> tests) {
 bool Search::is_refuted_by_givens(std::size_t number, bool& is_regular) {
   const auto refutes = [&](const Test& test) {
     if (machine_.is_possible(test) || (test.is_of_quotient && !is_regular)) return false;
-    refutations_[test.name] += test.is_alternative ? 1 : kStated;
+    ++refutations_[test.name];
     return true;
   };
   const Code& code = cases_[number].search;
@@ -371,7 +352,7 @@ void Search::look_at(std::span<Interval> box) {
   const std::span<const double> near =
       is_near ? std::span<const double>(last_[case_].search) : std::span<const double>{};
   const auto refuted = [&] {
-    if (contraction_.refuted_by() != Contraction::kBound) refutations_[contraction_.refuted_by()] += kStated;
+    if (contraction_.refuted_by() != Contraction::kBound) ++refutations_[contraction_.refuted_by()];
   };
   if (!contraction_.contract(of.search, box, front.active, cut_off(), near)) return refuted();
   if (front.boxes++ == 0) note_size(box);

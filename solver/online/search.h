@@ -60,7 +60,6 @@ class Search {
   bool is_refuted(std::span<const Test> tests);
   bool is_refuted_by_givens(std::size_t number, bool& is_regular);
   bool is_out_of_reason();
-  void count_refutations();
   bool is_provable(const CompiledCase& of);
   bool find_domains(const Code& code, std::span<const Interval> declared, bool is_inner,
                     std::span<Interval> domains);
@@ -87,7 +86,6 @@ class Search {
   std::size_t case_ = 0, boxes_ = 0;
   std::vector<std::size_t> order_;          // of the cases
   std::vector<std::uint32_t> refutations_;  // by name
-  std::vector<std::size_t> counted_in_;     // by name: the last case that it refutes, plus 1
   struct Last {
     bool is_known = false;
     std::vector<double> search, proof;  // points of the cores

@@ -215,12 +215,6 @@ TEST(StraightLineModels, ALowerBoundOfEveryMotionIsTold) {
   EXPECT_EQ(motion.problem().value(motion.problem().variable("T_lower"))[0], Interval(0));
 }
 
-// A target that cannot be kept within the limits: the choice of a line is not to blame.
-TEST(StraightLineModels, ATargetBeyondLimitsIsNamed) {
-  Motion motion("type9", 2);
-  motion.with("p1", {1, 1}).with("v1", {0.99, 0.99}).with("a1", {-1, -1}).expect_infeasible("target");
-}
-
 TEST(StraightLineModels, TellWhatBreaksTheLine) {
   Motion motion("type5", 3);
   motion.with("p1", {1, 2, 0.5}).with("v0", {0.1, 0.2, 0.05}).with("a1", {0.1, 0.2, 0.05001});
