@@ -68,6 +68,32 @@ class Eliminator {
     std::size_t side;  // of the equation, where the variable is
   };
 
+  // Whether an expression is 0 wherever it is defined, by its form.
+  [[nodiscard]] bool is_zero(NodeId node) const {
+    const DagNode& of = dag_[node];
+    const auto [a, b, unused] = of.operands;
+    switch (of.op) {
+      case Op::mul:
+        return is_zero(a) || is_zero(b);
+      case Op::neg:
+      case Op::div:
+        return is_zero(a);
+      case Op::add:
+      case Op::sub:
+        return is_zero(a) && is_zero(b);
+      default:
+        return is_number(dag_, node, 0.0);
+    }
+  }
+
+  // What a sum is, wherever it is defined.
+  [[nodiscard]] NodeId without_zeros(NodeId node) const {
+    const DagNode& of = dag_[node];
+    const auto [a, b, unused] = of.operands;
+    if (of.op == Op::add && is_zero(a)) return without_zeros(b);
+    return (of.op == Op::add || of.op == Op::sub) && is_zero(b) ? without_zeros(a) : node;
+  }
+
   // f(unknown, what parameters bound it by, whether from above).
   template <class F>
   void for_each_bound(F f) const {
@@ -75,7 +101,7 @@ class Eliminator {
       const DagNode& node = dag_[statement.relation];
       if (node.op != Op::less_equal && node.op != Op::less) continue;
       for (const std::size_t side : {std::size_t{0}, std::size_t{1}}) {
-        const DagNode& own = dag_[node.operands[side]];
+        const DagNode& own = dag_[without_zeros(node.operands[side])];
         const NodeId other = node.operands[1 - side];
         if (own.op == Op::input && unknowns_.is_unknown(own.input) && facts_.is_given(other))
           f(own.input, other, side == 0);
