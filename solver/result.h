@@ -66,8 +66,8 @@ struct SupportingReading {
 };
 
 /// Why no solution exists: the constraint whose contractor found a domain empty, the variable that it
-/// emptied (none where a search refutes by many boxes), when (for a tube), and readings that are jointly inconsistent: infeasible already when every
-/// other one is ignored.
+/// emptied (none where a search refutes by many boxes), when (for a tube), and readings that are jointly
+/// inconsistent: infeasible already when every other one is ignored.
 struct Explanation {
   std::string constraint;
   std::string variable;
