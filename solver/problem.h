@@ -177,6 +177,10 @@ class Problem {
   /// A relation that follows from the constraints, or that may be assumed: searches use it, and what they say
   /// of all solutions, or of the best, is relative to it. No solution's proof has to show it.
   void imply(std::string name, Expr relation);
+  /// A relation that solutions of a family obey, which is looked for in place of all: the best that is found
+  /// is the best of the family. Nothing is then infeasible but by what speaks of parameters alone, since
+  /// other solutions may exist.
+  void choose_family(std::string name, Expr relation);
   /// A relation that holds at some instant.
   void constrain_sometime(std::string name, Expr relation);
   /// What is stated while body() runs speaks of the instants of a window, or of all: "every t" above and

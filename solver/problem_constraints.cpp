@@ -22,6 +22,12 @@ void Problem::imply(std::string name, Expr relation) {
   impl_->state_relation(std::move(name), relation, true);
 }
 
+void Problem::choose_family(std::string name, Expr relation) {
+  require(impl_->alternative == nullptr, "Problem: {} is of a family within an alternative", name);
+  impl_->family.insert(name);
+  impl_->state_relation(std::move(name), relation, false);
+}
+
 void Problem::Impl::state_relation(std::string stated, Expr relation, bool is_implied) {
   const NodeId node = relation_of(relation);
   if (phases != nullptr) return state_on_phases({std::move(stated), node, is_implied});

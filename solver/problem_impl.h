@@ -59,6 +59,7 @@ struct Problem::Impl {
     bool is_implied;
   };
   std::vector<Stated> relations;          // those that hold whatever else does
+  std::set<std::string> family;           // names of those that other solutions may not obey
   std::set<VariableId> parameters;        // numbers that are given
   std::map<VariableId, NodeId> followed;  // by parameter: what its value is unless it is set
   std::map<VariableId, std::optional<NodeId>> values_of_parameters;  // as constants

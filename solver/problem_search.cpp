@@ -57,6 +57,13 @@ struct SearchView {
     });
   }
 
+  // Where a family has no solution there may be others, anywhere.
+  [[nodiscard]] std::vector<Interval> domains() const {
+    std::vector<Interval> all;
+    for (const System::Unknown& unknown : unknowns) all.push_back(unknown.domain);
+    return all;
+  }
+
   // What compiling finds: on phases it eliminates what is defined, and so proves limits that are reached,
   // which search by itself cannot.
   [[nodiscard]] CompiledAnswer compiled_answer(Problem& stated, Expr objective,
@@ -68,10 +75,9 @@ struct SearchView {
       online.precision = options.precision;
       online.most_boxes = 20000;  // there is no cycle to keep
       CompiledProblem compiled = compile(stated, objective, online);
-      if (compiled.solve() == OnlineStatus::infeasible) {
-        known.minimum = Interval::empty();
-        answer.refuted_by = compiled.reason();
-      }
+      const OnlineStatus status = compiled.solve();
+      if (status == OnlineStatus::infeasible) answer.refuted_by = compiled.reason();
+      if (!compiled.reason().empty()) known.minimum = Interval::empty();
       if (!compiled.has_solution()) return answer;
       known.minimum = compiled.objective();
       known.solution.emplace();
@@ -166,7 +172,9 @@ Result Problem::solve_all(const SearchOptions& options) {
   const SearchView view(impl_->view(), inputs_of(impl_->dag, joined(relations, implied)), impl_->whole,
                         impl_->parameters, impl_->certain);
   const System system(impl_->dag, relations, view.unknowns, implied);
-  const SearchAnswer answer = branch_and_prune(system, options);
+  SearchAnswer answer = branch_and_prune(system, options);
+  if (answer.found.empty() && answer.unexplored.empty() && !impl_->family.empty())
+    answer.unexplored.push_back(view.domains());
   Result result = result_of(view, answer.found, answer.unexplored, answer.cells);
   tell_time(result, started, options);
   return result;
@@ -189,7 +197,11 @@ Result Problem::minimize(Expr objective, const SearchOptions& options) {
   const Minimisation problem(impl_->dag, node, relations, view.unknowns, value, implied);
   const CompiledAnswer compiled =
       impl_->phases == nullptr ? CompiledAnswer{} : view.compiled_answer(*this, objective, options);
-  const MinimumAnswer answer = branch_and_bound(problem, options, compiled.known);
+  MinimumAnswer answer = branch_and_bound(problem, options, compiled.known);
+  if (answer.minimum.is_empty() && compiled.refuted_by.empty() && !impl_->family.empty()) {
+    answer.minimum = Interval::entire();
+    answer.unexplored.push_back(view.domains());
+  }
   std::vector<FoundBox> found;
   if (answer.best) found.push_back({*answer.best, Certificate::exists, Reason::proven});
   for (const std::vector<Interval>& box : answer.boxes)

@@ -323,6 +323,8 @@ void Checker::check_constraint(const ConstraintItem& item) {
   if (type.is(Type::Kind::boolean)) {
     if (item.is_implied && model_.is_stated(*item.relation))
       not_supported(item.relation->range, "`implied` of more than a relation between numbers");
+    if (item.is_of_family && model_.is_stated(*item.relation))
+      not_supported(item.relation->range, "`family` of more than a relation between numbers");
     return;
   }
   diagnostics().report(Code::not_a_relation, item.relation->range, describe(type));

@@ -160,9 +160,9 @@ class Compiler {
   };
   std::optional<StatedDomain> evaluate_domain(const Expr& expr);
   std::unordered_map<const Expr*, std::optional<StatedDomain>> domains_;
-  std::string constraint_;                               // the name of the constraint at hand
-  bool is_implied_ = false;                              // which is implied
-  SourceRange place_;                                    // and where it is
+  std::string constraint_;  // the name of the constraint at hand
+  void (Problem::*state_as_)(std::string, hcsp::Expr) = &Problem::constrain;  // what it is
+  SourceRange place_;                                                         // and where it is
   std::unordered_map<std::string, SourceRange> places_;  // of what was stated, by its name
   std::unordered_map<std::string, int> names_;           // of all constraints: how often they were asked for
 };

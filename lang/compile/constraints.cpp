@@ -14,9 +14,11 @@ void Compiler::compile_constraint(const ConstraintItem& item) {
     constraint_ = fmt::format("line {}", place.line);
     if (names_.contains(constraint_)) constraint_ += fmt::format(":{}", place.column);
   }
-  const bool outer = std::exchange(is_implied_, item.is_implied);
+  const auto outer = std::exchange(state_as_, item.is_implied     ? &Problem::imply
+                                              : item.is_of_family ? &Problem::choose_family
+                                                                  : &Problem::constrain);
   state(*item.relation);
-  is_implied_ = outer;
+  state_as_ = outer;
 }
 
 // A constraint that is the conjunction of several contractors numbers them.
@@ -50,7 +52,7 @@ void Compiler::state_truth(const Term& relation) {
   if (known && *known) return;
   const hcsp::Expr expr = expression_of(*problem_, relation);
   const hcsp::Expr stated = known ? expr == problem_->constant(Interval(1.0)) : expr;
-  is_implied_ ? problem_->imply(next_name(), stated) : problem_->constrain(next_name(), stated);
+  (*problem_.*state_as_)(next_name(), stated);
 }
 
 // A derivative or a range alone on one side.

@@ -176,7 +176,8 @@ struct LetItem {
 struct ConstraintItem {
   std::optional<Name> name;
   Expr* relation = nullptr;
-  bool is_implied = false;  // `implied`: it follows, or may be assumed
+  bool is_implied = false;    // `implied`: it follows, or may be assumed
+  bool is_of_family = false;  // `family`: what is looked for obeys it, other solutions may not
 };
 struct SolveItem {
   enum class Goal : std::uint8_t { propagate, all, pave, minimize, maximize };

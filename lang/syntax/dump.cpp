@@ -82,7 +82,10 @@ struct ItemDump {
     return fmt::format("(let {} {} {})", item.name.text, dump(item.type), dump(*item.value));
   }
   std::string operator()(const ConstraintItem& item) const {
-    return fmt::format("({} {} {})", item.is_implied ? "implied" : "constraint",
+    return fmt::format("({} {} {})",
+                       item.is_implied     ? "implied"
+                       : item.is_of_family ? "family"
+                                           : "constraint",
                        item.name ? item.name->text : "_", dump(*item.relation));
   }
   std::string operator()(const SolveItem& item) const {

@@ -165,7 +165,8 @@ class Spacing {
     after_quantifier_ = prefix && token.kind != TokenKind::minus;
     after_prefix_minus_ = prefix && token.kind == TokenKind::minus;
     ++count_;
-    is_label_ = count_ == 2 && (last_ == TokenKind::kw_constraint || last_ == TokenKind::kw_implied);
+    is_label_ = count_ == 2 && (last_ == TokenKind::kw_constraint || last_ == TokenKind::kw_implied ||
+                                last_ == TokenKind::kw_family);
     last_ = token.kind;
     last_text_ = token.text();
   }

@@ -377,7 +377,7 @@ const x3::rule<class FunctionRule, FunctionItem> function_item = "`function`";
 const x3::rule<class GivenRule, GivenItem> given_item = "`given`";
 const x3::rule<class VarRule, VarItem> var_item = "`var`";
 const x3::rule<class LetRule, LetItem> let_item = "`let`";
-const x3::rule<class ConstraintRule, ConstraintItem> constraint_item = "`constraint` or `implied`";
+const x3::rule<class ConstraintRule, ConstraintItem> constraint_item = "`constraint`, `implied` or `family`";
 const x3::rule<class SolveRule, SolveItem> solve_item = "`solve`";
 const x3::rule<class ShowRule, ShowItem> show_item = "`show`";
 
@@ -412,8 +412,9 @@ const auto var_item_def = token(kw_var) > (name[append(&VarItem::names)] % token
 const auto let_item_def = token(kw_let) > name[put(&LetItem::name)] >
                           -(token(colon) > type[put(&LetItem::type)]) >
                           token(assign) > expression[put(&LetItem::value)];
-const auto constraint_word =
-    token(kw_constraint) | token(kw_implied)[([](auto& ctx) { _val(ctx).is_implied = true; })];
+const auto constraint_word = token(kw_constraint) |
+                             token(kw_implied)[([](auto& ctx) { _val(ctx).is_implied = true; })] |
+                             token(kw_family)[([](auto& ctx) { _val(ctx).is_of_family = true; })];
 const auto constraint_item_def = constraint_word >
                                  -(&(token(identifier) >> token(colon)) >> name[put(&ConstraintItem::name)] >>
                                    token(colon)) > expression[put(&ConstraintItem::relation)];

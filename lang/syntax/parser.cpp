@@ -20,6 +20,7 @@ bool starts_item(TokenKind kind) {
     case TokenKind::kw_let:
     case TokenKind::kw_constraint:
     case TokenKind::kw_implied:
+    case TokenKind::kw_family:
     case TokenKind::kw_solve:
     case TokenKind::kw_show:
       return true;
@@ -31,7 +32,7 @@ bool starts_item(TokenKind kind) {
 const std::vector<std::string>& item_words() {
   static const std::vector<std::string> words{"model",    "include", "param", "data", "time",
                                               "function", "given",   "var",   "let",  "constraint",
-                                              "implied",  "solve",   "show"};
+                                              "implied",  "family",  "solve", "show"};
   return words;
 }
 
@@ -73,8 +74,7 @@ void report(const SyntaxError& error, const Token* first, Diagnostics& diagnosti
   if (error.expected == "an item") {
     diagnostic.note(
         "an item starts with model, include, param, data, time, function, given, var, let, constraint, "
-        "implied, "
-        "solve or show");
+        "implied, family, solve or show");
     if (found.kind == TokenKind::identifier) diagnostic.did_you_mean(found.text(), item_words());
   }
   if (found.kind == TokenKind::assign && error.expected == "`;`") diagnostic.note("equality is written `==`");

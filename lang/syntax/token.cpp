@@ -44,12 +44,13 @@ constexpr std::array<std::string_view, 31> kPunctuation{"the end of the file",
 
 const std::vector<std::string>& keywords() {
   static const std::vector<std::string> all{
-      "all",     "and",       "array",  "at",       "bool",  "constraint", "data",     "else",    "endif",
-      "exists",  "false",     "forall", "function", "given", "if",         "iff",      "implied", "implies",
-      "in",      "include",   "int",    "inter",    "let",   "max",        "maximize", "min",     "minimize",
-      "model",   "not",       "of",     "oo",       "or",    "param",      "pave",     "phases",  "precision",
-      "prod",    "propagate", "real",   "set",      "show",  "solve",      "step",     "subset",  "sum",
-      "symdiff", "then",      "time",   "true",     "tube",  "union",      "var",      "where",   "xor"};
+      "all",   "and",      "array",   "at",       "bool",      "constraint", "data",      "else",
+      "endif", "exists",   "false",   "family",   "forall",    "function",   "given",     "if",
+      "iff",   "implied",  "implies", "in",       "include",   "int",        "inter",     "let",
+      "max",   "maximize", "min",     "minimize", "model",     "not",        "of",        "oo",
+      "or",    "param",    "pave",    "phases",   "precision", "prod",       "propagate", "real",
+      "set",   "show",     "solve",   "step",     "subset",    "sum",        "symdiff",   "then",
+      "time",  "true",     "tube",    "union",    "var",       "where",      "xor"};
   return all;
 }
 

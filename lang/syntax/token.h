@@ -56,6 +56,7 @@ enum class TokenKind : std::uint8_t {
   kw_endif,
   kw_exists,
   kw_false,
+  kw_family,
   kw_forall,
   kw_function,
   kw_given,

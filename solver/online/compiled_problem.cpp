@@ -40,7 +40,7 @@ struct CompiledProblem::Impl {
   Impl(online::Compiled all, const OnlineOptions& options)
       : compiled(std::move(all)),
         machine(compiled.prefix, compiled.most_registers(), compiled.most_core(), compiled.most_surfaces()),
-        search(machine, compiled.cases, compiled.givens, compiled.names.size(), compiled.has_objective,
+        search(machine, compiled.cases, compiled.givens, compiled.is_decisive, compiled.has_objective,
                {options.most_boxes, options.precision}),
         parameters(compiled.parameter_values),
         is_invalid(parameters.size()),
@@ -97,7 +97,8 @@ void CompiledProblem::Impl::solve() {
     read_solution(finding);
   }
   const bool is_refuted = !is_found && !finding.is_exhausted && finding.lower == kInfinity;
-  status = is_refuted                          ? OnlineStatus::infeasible
+  const bool is_of_all = finding.is_decided || !compiled.has_family();
+  status = is_refuted && is_of_all             ? OnlineStatus::infeasible
            : is_found && !finding.is_exhausted ? OnlineStatus::solved
                                                : OnlineStatus::undecided;
   if (is_refuted && !compiled.names.empty()) reason = compiled.names[finding.refuted_by];

@@ -80,6 +80,7 @@ class CompiledProblem {
   /// Values there of the expressions that OnlineOptions named.
   [[nodiscard]] std::span<const Interval> outputs() const noexcept;
   /// When infeasible the name of a constraint that refuted, when invalid the parameter; empty when solved.
+  /// When undecided the name of one that leaves nothing of the family (Problem::choose_family), or empty.
   [[nodiscard]] std::string_view reason() const noexcept;
   /// How many boxes the last solve looked at, and how many cases there are.
   [[nodiscard]] std::size_t boxes() const noexcept;

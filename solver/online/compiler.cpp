@@ -46,11 +46,16 @@ Compiled::Compiled(const Question& question)
       has_objective(question.has_objective),
       names(question.names),
       parameter_names(question.parameter_names),
+      is_decisive(question.is_decisive),
       parameter_values(question.parameter_values),
       parameter_places(question.parameter_places),
       variable_places(question.variable_places),
       variables(question.variables),
       tubes(question.tubes) {}
+
+bool Compiled::has_family() const {
+  return std::find(is_decisive.begin(), is_decisive.end(), false) != is_decisive.end();
+}
 
 namespace {
 

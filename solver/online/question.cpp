@@ -61,6 +61,13 @@ Question question_of(Problem& problem, const std::optional<Expr>& objective,
     question.statements.push_back(
         {stated.relation, static_cast<std::uint32_t>(question.names.size()), stated.is_implied});
     question.names.push_back(stated.name);
+    const std::vector<NodeId> needed = needed_nodes(impl.dag, {stated.relation});
+    const bool is_of_parameters = std::all_of(needed.begin(), needed.end(), [&](NodeId id) {
+      const DagNode& node = impl.dag[id];
+      return node.op != Op::input || impl.parameters.contains(node.input.variable);
+    });
+    question.is_decisive.push_back(impl.family.empty() ||
+                                   (is_of_parameters && !impl.family.contains(stated.name)));
   }
   Places places{impl.graph, impl.vectors, question};
   Unknowns& unknowns = question.unknowns;
@@ -87,6 +94,7 @@ Question question_of(Problem& problem, const std::optional<Expr>& objective,
         question.statements.push_back(
             {impl.dag.constant(kFalse), static_cast<std::uint32_t>(question.names.size()), false});
       question.names.push_back(impl.graph.variable(id).name());
+      question.is_decisive.push_back(impl.family.empty());
     }
     places.add(id, is_parameter);
   }

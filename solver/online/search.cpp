@@ -50,16 +50,17 @@ double cut_of(const Interval& x) {
 }  // namespace
 
 Search::Search(Machine& machine, const std::vector<CompiledCase>& cases, const Givens& givens,
-               std::size_t names, bool has_objective, const Limits& limits)
+               const std::vector<bool>& is_decisive, bool has_objective, const Limits& limits)
     : machine_(machine),
       contraction_(machine, most_tests(cases), most_core(cases)),
       proof_(machine, most_tests(cases), most_core(cases)),
       cases_(cases),
       givens_(givens),
+      is_decisive_(is_decisive),
       has_objective_(has_objective),
       limits_(limits),
       order_(cases.size()),
-      refutations_(names),
+      refutations_(is_decisive.size()),
       last_(cases.size()),
       provable_(cases.size()),
       fronts_(cases.size()),
@@ -86,13 +87,16 @@ void Search::forget() {
 }
 
 const Finding& Search::run() {
-  finding_ = {false, 0, Interval::raw(kInfinity, kInfinity), kInfinity, false, 0};
+  finding_ = {false, 0, Interval::raw(kInfinity, kInfinity), kInfinity, false, 0, false};
   std::fill(refutations_.begin(), refutations_.end(), 0U);
   std::fill(provable_.begin(), provable_.end(), Provable::unknown);
   is_any_provable_ = Provable::unknown;
   boxes_ = 0;
   machine_.evaluate(givens_.always);
-  if (is_refuted(givens_.required)) return finding_;
+  if (is_refuted(givens_.required)) {
+    if (!finding_.is_decided) is_out_of_reason();
+    return finding_;
+  }
   waiting_.clear();
   // Of boxes of which nothing is known yet the last that came is the first to be looked at.
   for (std::size_t i = order_.size(); i-- > 0;) open(order_[i]);
@@ -153,14 +157,18 @@ void Search::open(std::size_t number) {
   waiting_.push({domains_.data(), code.core()}, static_cast<std::uint32_t>(number), -kInfinity);
 }
 
-// The first of some tests that holds nowhere.
+// Whether a test that all cases have holds nowhere: the first, or one that is decisive.
 bool Search::is_refuted(std::span<const Test> tests) {
+  bool is_one = false;
   for (const Test& test : tests) {
-    if (machine_.is_possible(test)) continue;
+    if (finding_.is_decided) break;
+    const bool is_better = !is_one || is_decisive_[test.name];
+    if (!is_better || machine_.is_possible(test)) continue;
     finding_.refuted_by = test.name;
-    return true;
+    finding_.is_decided = is_decisive_[test.name];
+    is_one = true;
   }
-  return false;
+  return is_one;
 }
 
 // Where divisors may be 0 what their quotients say does not count.

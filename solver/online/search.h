@@ -38,12 +38,14 @@ struct Finding {
   double lower;              ///< of the objective of all solutions; +oo where there are none
   bool is_exhausted;         ///< the limit of boxes was met, or a case could not be looked at
   std::uint32_t refuted_by;  ///< a relation that refuted most
+  bool is_decided;           ///< it refuted all cases, and is decisive
 };
 
 class Search {
  public:
-  Search(Machine& machine, const std::vector<CompiledCase>& cases, const Givens& givens, std::size_t names,
-         bool has_objective, const Limits& limits);
+  /// `is_decisive` by name: whether no solution is left where that is refuted, of the family or not.
+  Search(Machine& machine, const std::vector<CompiledCase>& cases, const Givens& givens,
+         const std::vector<bool>& is_decisive, bool has_objective, const Limits& limits);
 
   /// PRECONDITION: the parameters are in the machine, and the thread rounds upward.
   const Finding& run();
@@ -80,6 +82,7 @@ class Search {
   Proof proof_;
   const std::vector<CompiledCase>& cases_;
   const Givens& givens_;
+  const std::vector<bool>& is_decisive_;
   bool has_objective_;
   Limits limits_;
   Finding finding_{};

@@ -94,7 +94,7 @@ class Edges : public OneType {
   }
 
   void inadmissible_targets() {
-    const std::string why = type() <= 5 ? "target" : "target|choice";
+    const std::string why = "target|target_jerk";
     if (has("v1")) expect_infeasible("too fast", on_line(type(), {}, {2, 1.01}), why);
     if (has("v1")) expect_infeasible("too fast backward", on_line(type(), {}, {2, -1.01}), why);
     if (has("a1")) {

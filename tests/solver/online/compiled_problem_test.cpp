@@ -156,6 +156,39 @@ TEST(CompiledProblem, NamesWhatRefutes) {
   EXPECT_NE(compiled.reason().find("circle"), std::string_view::npos);
 }
 
+// Where a family has no solution others may have; what parameters alone refute has none.
+TEST(CompiledProblem, AFamilyWithoutASolutionDecidesNothing) {
+  Problem problem("family");
+  const RealVariable radius = problem.parameter("radius", Interval(1.0));
+  const RealVariable x = problem.real("x", Interval(-10.0, 10.0)),
+                     y = problem.real("y", Interval(-10.0, 10.0));
+  const Expr square = sqr(problem(x)) + sqr(problem(y));
+  problem.constrain("circle", square == problem(radius));
+  problem.constrain("size", problem(radius) <= problem.constant(Interval(9.0)));
+  problem.choose_family("right", problem(x) >= problem.constant(Interval(2.0)));
+  CompiledProblem compiled = compile(problem, problem(y));
+  EXPECT_EQ(compiled.solve(), OnlineStatus::undecided);
+  EXPECT_FALSE(compiled.has_solution());
+  EXPECT_FALSE(compiled.reason().empty());
+  compiled.set(compiled.parameter("radius"), 5.0);
+  EXPECT_EQ(compiled.solve(), OnlineStatus::solved);
+  EXPECT_TRUE(compiled.objective().contains(-1.0));
+  compiled.set(compiled.parameter("radius"), 10.0);
+  EXPECT_EQ(compiled.solve(), OnlineStatus::infeasible);
+  EXPECT_EQ(compiled.reason(), "size");
+}
+
+TEST(CompiledProblem, AFamilyWithoutASolutionLeavesAllUnexplored) {
+  Problem problem("family");
+  const RealVariable x = problem.real("x", Interval(-1.0, 1.0));
+  problem.choose_family("right", problem(x) >= problem.constant(Interval(2.0)));
+  for (const Result& result : {problem.solve_all(), problem.minimize(problem(x))}) {
+    EXPECT_EQ(result.status, Status::limit);
+    ASSERT_EQ(result.search->unexplored.size(), 1U);
+    EXPECT_EQ(std::get<Interval>(result.search->unexplored[0][0].domain), Interval(-1.0, 1.0));
+  }
+}
+
 TEST(CompiledProblem, RejectsWhatItCannotCompile) {
   Problem tubes("tubes");
   tubes.set_time_line(TimeLine({0.0, 1.0}));
