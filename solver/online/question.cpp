@@ -30,6 +30,21 @@ struct Places {
   }
 };
 
+// By node, whether it needs more than parameters; operands come before what is made of them.
+std::vector<bool> nodes_of_unknowns(const Dag& dag, const std::set<VariableId>& parameters) {
+  std::vector<bool> needs(dag.size());
+  for (NodeId id = 0; id < dag.size(); ++id) {
+    const DagNode& node = dag[id];
+    if (node.op == Op::input) {
+      needs[id] = !parameters.contains(node.input.variable);
+    } else if (node.op != Op::constant) {
+      const auto arity = static_cast<std::size_t>(operator_entry(node.op).arity);
+      for (std::size_t k = 0; k < arity; ++k) needs[id] = needs[id] || needs[node.operands[k]];
+    }
+  }
+  return needs;
+}
+
 }  // namespace
 
 Question question_of(Problem& problem, const std::optional<Expr>& objective,
@@ -57,17 +72,13 @@ Question question_of(Problem& problem, const std::optional<Expr>& objective,
         {impl.graph.variable(id).name(), unknown_tube(*impl.phases, id), question.wanted.size()});
     question.wanted.insert(question.wanted.end(), all.begin(), all.end());
   }
+  const std::vector<bool> needs_unknown = nodes_of_unknowns(impl.dag, impl.parameters);
   for (const auto& stated : impl.relations) {
     question.statements.push_back(
         {stated.relation, static_cast<std::uint32_t>(question.names.size()), stated.is_implied});
     question.names.push_back(stated.name);
-    const std::vector<NodeId> needed = needed_nodes(impl.dag, {stated.relation});
-    const bool is_of_parameters = std::all_of(needed.begin(), needed.end(), [&](NodeId id) {
-      const DagNode& node = impl.dag[id];
-      return node.op != Op::input || impl.parameters.contains(node.input.variable);
-    });
     question.is_decisive.push_back(impl.family.empty() ||
-                                   (is_of_parameters && !impl.family.contains(stated.name)));
+                                   (!needs_unknown[stated.relation] && !impl.family.contains(stated.name)));
   }
   Places places{impl.graph, impl.vectors, question};
   Unknowns& unknowns = question.unknowns;
