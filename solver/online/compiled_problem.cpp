@@ -101,7 +101,7 @@ void CompiledProblem::Impl::solve() {
   const bool is_refuted = !is_found && !finding.is_exhausted && finding.lower == kInfinity;
   const bool is_bracketed =
       !compiled.has_objective || objective.width() <= gap * std::max(1.0, objective.mag());
-  const bool is_of_all = finding.is_decided || !compiled.has_family();
+  const bool is_of_all = finding.is_decided || !compiled.has_family;
   status = is_refuted && is_of_all                             ? OnlineStatus::infeasible
            : is_found && !finding.is_exhausted && is_bracketed ? OnlineStatus::solved
                                                                : OnlineStatus::undecided;

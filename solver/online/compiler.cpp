@@ -46,31 +46,16 @@ Compiled::Compiled(const Question& question)
       has_objective(question.has_objective),
       names(question.names),
       parameter_names(question.parameter_names),
-      is_decisive(question.is_decisive),
+      has_family(!question.family.empty()),
+      is_decisive(question.names.size(), !has_family),
       parameter_values(question.parameter_values),
       parameter_places(question.parameter_places),
       variable_places(question.variable_places),
       variables(question.variables),
       tubes(question.tubes) {}
 
-bool Compiled::has_family() const {
-  return std::find(is_decisive.begin(), is_decisive.end(), false) != is_decisive.end();
-}
-
-namespace {
-
-template <class SizeOf>
-std::size_t most(const std::vector<CompiledCase>& cases, SizeOf size_of) {
-  std::size_t result = 0;
-  for (const CompiledCase& one : cases)
-    result = std::max<std::size_t>({result, size_of(one.search), size_of(one.proof)});
-  return result;
-}
-
-}  // namespace
-
 std::size_t Compiled::most_registers() const {
-  return most(cases, [](const Code& code) -> std::size_t { return code.registers(); });
+  return most(cases, [](const Code& code) { return code.registers(); });
 }
 
 std::size_t Compiled::most_core() const {
@@ -78,7 +63,7 @@ std::size_t Compiled::most_core() const {
 }
 
 std::size_t Compiled::most_surfaces() const {
-  return most(cases, [](const Code& code) -> std::size_t { return code.surfaces; });
+  return most(cases, [](const Code& code) { return code.surfaces; });
 }
 
 namespace {
@@ -108,6 +93,11 @@ Compiled compile_cases(const Question& question, std::size_t most_cases) {
   for (std::size_t p = 0; p < question.parameters.size(); ++p)
     at_first.domains[question.parameters[p]] = question.parameter_values[p];
   Facts facts(dag, unknowns);
+  // In a family nothing but what speaks of parameters alone, and is not of the family, leaves no solution.
+  for (const Statement& stated : whole.statements) {
+    if (facts.is_given(stated.relation) && !question.family.contains(stated.name))
+      compiled.is_decisive[stated.name] = true;
+  }
   const std::vector<Case> cases = split_into_cases(dag, facts, whole, unknowns, most_cases);
   std::vector<Pair> views;
   for (const Case& shared : cases) {

@@ -4,6 +4,7 @@
 
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -32,8 +33,8 @@ struct Question {
   std::vector<NodeId> wanted;  ///< the objective, if there is one, and further expressions
   bool has_objective;
   Unknowns unknowns;
-  std::vector<std::string> names;  ///< of statements, then of unknowns' domains
-  std::vector<bool> is_decisive;   ///< by name: whether what refutes it leaves no solution, of no family
+  std::vector<std::string> names;          ///< of statements, then of unknowns' domains
+  std::set<std::uint32_t> family;          ///< names of statements that solutions outside the family break
   std::map<Input, std::uint32_t> name_of;  ///< of an unknown's domain
   std::vector<Input> parameters;           ///< in the order of declaration
   std::map<VariableId, NodeId> followed;   ///< by parameter: what its value is unless it is set
@@ -57,14 +58,13 @@ struct Compiled {
   std::vector<std::vector<Source>> sources;  ///< by case, by variable
   bool has_objective;
   std::vector<std::string> names, parameter_names;
-  std::vector<bool> is_decisive;  ///< by name
+  bool has_family;
+  std::vector<bool> is_decisive;  ///< by name: whether no solution is left where it is refuted, of no family
   std::vector<Interval> parameter_values;
   std::map<std::string, Named> parameter_places, variable_places;
   std::size_t variables;
   std::vector<WantedTube> tubes;
 
-  /// Whether solutions are looked for in a family only.
-  [[nodiscard]] bool has_family() const;
   [[nodiscard]] std::size_t most_registers() const;
   [[nodiscard]] std::size_t most_core() const;
   [[nodiscard]] std::size_t most_surfaces() const;

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // What compilation needs to know of a Problem.
-#include "solver/expression/operators.h"
 #include "solver/online/compiler.h"
 #include "solver/phases/enclosure.h"
 #include "solver/problem_impl.h"
@@ -30,21 +29,6 @@ struct Places {
   }
 };
 
-// By node, whether it needs more than parameters; operands come before what is made of them.
-std::vector<bool> nodes_of_unknowns(const Dag& dag, const std::set<VariableId>& parameters) {
-  std::vector<bool> needs(dag.size());
-  for (NodeId id = 0; id < dag.size(); ++id) {
-    const DagNode& node = dag[id];
-    if (node.op == Op::input) {
-      needs[id] = !parameters.contains(node.input.variable);
-    } else if (node.op != Op::constant) {
-      const auto arity = static_cast<std::size_t>(operator_entry(node.op).arity);
-      for (std::size_t k = 0; k < arity; ++k) needs[id] = needs[id] || needs[node.operands[k]];
-    }
-  }
-  return needs;
-}
-
 }  // namespace
 
 Question question_of(Problem& problem, const std::optional<Expr>& objective,
@@ -72,13 +56,11 @@ Question question_of(Problem& problem, const std::optional<Expr>& objective,
         {impl.graph.variable(id).name(), unknown_tube(*impl.phases, id), question.wanted.size()});
     question.wanted.insert(question.wanted.end(), all.begin(), all.end());
   }
-  const std::vector<bool> needs_unknown = nodes_of_unknowns(impl.dag, impl.parameters);
   for (const auto& stated : impl.relations) {
     question.statements.push_back(
         {stated.relation, static_cast<std::uint32_t>(question.names.size()), stated.is_implied});
     question.names.push_back(stated.name);
-    question.is_decisive.push_back(impl.family.empty() ||
-                                   (!needs_unknown[stated.relation] && !impl.family.contains(stated.name)));
+    if (impl.family.contains(stated.name)) question.family.insert(question.statements.back().name);
   }
   Places places{impl.graph, impl.vectors, question};
   Unknowns& unknowns = question.unknowns;
@@ -105,7 +87,6 @@ Question question_of(Problem& problem, const std::optional<Expr>& objective,
         question.statements.push_back(
             {impl.dag.constant(kFalse), static_cast<std::uint32_t>(question.names.size()), false});
       question.names.push_back(impl.graph.variable(id).name());
-      question.is_decisive.push_back(impl.family.empty());
     }
     places.add(id, is_parameter);
   }

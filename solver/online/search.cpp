@@ -15,13 +15,6 @@ namespace {
 constexpr std::size_t kMostWaiting = 4096;
 constexpr double kMiddle = 0.5;
 
-template <class SizeOf>
-std::size_t most(const std::vector<CompiledCase>& cases, SizeOf size_of) {
-  std::size_t result = 0;
-  for (const CompiledCase& one : cases) result = std::max({result, size_of(one.search), size_of(one.proof)});
-  return result;
-}
-
 std::size_t most_tests(const std::vector<CompiledCase>& cases) {
   return most(cases, [](const Code& code) { return code.tests.size(); });
 }

@@ -3,6 +3,8 @@
 // once: first the case of the last solution, from where that was; then all the others.
 #pragma once
 
+#include <algorithm>
+
 #include "solver/online/contraction.h"
 #include "solver/online/givens.h"
 #include "solver/online/proof.h"
@@ -24,6 +26,15 @@ struct CompiledCase {
   std::vector<Source> candidate;  ///< by unknown of the proof's core: what gives it in the search
   std::vector<Source> found;      ///< by unknown of the search's core: what gives it in the proof
 };
+
+/// The greatest size of some kind among the codes of all cases.
+template <class SizeOf>
+std::size_t most(const std::vector<CompiledCase>& cases, SizeOf size_of) {
+  std::size_t result = 0;
+  for (const CompiledCase& one : cases)
+    result = std::max<std::size_t>({result, size_of(one.search), size_of(one.proof)});
+  return result;
+}
 
 struct Limits {
   std::size_t boxes;  ///< that one solve looks at

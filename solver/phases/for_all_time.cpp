@@ -43,8 +43,9 @@ Expr slope_at_end(const LocalPolynomial& p, Expr duration) {
 // Within a phase of length tau, d = p - q = c0 + c1 s + c2 s^2/2 has a maximum between the ends when rise =
 // max(c1, 0) and fall = max(-(c1 + c2 tau), 0) are positive. Then -c2 tau = rise + fall, and the maximum is
 // c0 + tau rise^2/(2 (rise + fall)). Times the denominator, and times rise fall to be no condition where
-// there is no such maximum. Slopes are taken of p and q: they are what a derivative is at gates, expressions
-// that may be known.
+// there is no such maximum. It is at most c0 + tau rise/2, so that a phase that hardly bends is decided by
+// twice that. Slopes are taken of p and q: they are what a derivative is at gates, expressions that may be
+// known.
 Expr vertex_is_negative(const LocalPolynomial& p, const LocalPolynomial& q, Expr duration, bool strict) {
   const Expr rise = positive_part(difference(slope_at_start(p), slope_at_start(q)));
   const Expr fall = positive_part(difference(slope_at_end(q, duration), slope_at_end(p, duration)));
