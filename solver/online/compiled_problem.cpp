@@ -102,9 +102,9 @@ void CompiledProblem::Impl::solve() {
   const bool is_bracketed =
       !compiled.has_objective || objective.width() <= gap * std::max(1.0, objective.mag());
   const bool is_of_all = finding.is_decided || !compiled.has_family;
-  status = is_refuted && is_of_all                             ? OnlineStatus::infeasible
-           : is_found && !finding.is_exhausted && is_bracketed ? OnlineStatus::solved
-                                                               : OnlineStatus::undecided;
+  status = is_refuted && is_of_all    ? OnlineStatus::infeasible
+           : is_found && is_bracketed ? OnlineStatus::solved
+                                      : OnlineStatus::undecided;
   if (is_refuted && !compiled.names.empty()) reason = compiled.names[finding.refuted_by];
 }
 

@@ -17,7 +17,7 @@ namespace hcsp {
 
 /// solved: a solution is proven, and the objective is bracketed, to half of the digits that are asked for at
 /// least (the square root of the precision). infeasible: proven, there is none.
-/// undecided: neither, or the limit of boxes was met. invalid: a parameter is no number.
+/// undecided: neither, within the limit of boxes. invalid: a parameter is no number.
 enum class OnlineStatus : std::uint8_t { solved, infeasible, undecided, invalid };
 std::string_view to_string(OnlineStatus status);
 

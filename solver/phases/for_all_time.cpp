@@ -58,22 +58,11 @@ Expr vertex_is_negative(const LocalPolynomial& p, const LocalPolynomial& q, Expr
                                                   : min(all, sum(twice, growth)) <= zero;
 }
 
-// Whether a linear or quadratic polynomial is nowhere negative, by the same argument.
-Expr is_nowhere_negative(const LocalPolynomial& p, Expr duration) {
-  const Expr zero = number(duration.dag(), 0.0);
-  std::vector<Expr> all{ordered(zero, p.coefficients[0], false), ordered(zero, p.at(duration), false)};
-  if (p.degree() == 2) {
-    const LocalPolynomial nothing{{zero}};
-    all.push_back(vertex_is_negative(nothing, p, duration, false));
-  }
-  return folding::conjunction(duration.dag(), all);
-}
-
 // Of a cubic the maximum is where the slope c1 + c2 s + c3 s^2/2 falls through 0: at s = (c2 + r)/-c3, r =
 // sqrt(c2^2 - 2 c1 c3), where c3 < 0 <= c2, and otherwise at s = 2 c1/(r - c2), if that is positive. Where
-// the cubic is monotone there is none, and the ends say it all. At the maximum the cubic is its remainder by
-// the slope, too, c0 - (c1 c2 + s (c2^2 - 2 c1 c3))/(3 c3), which tells more where the slope only just
-// touches 0: the place of the maximum is then known by a square root of rounding.
+// the cubic is monotone there is none, and the ends say it all: its slope is of one sign. At the maximum the
+// cubic is its remainder by the slope, too, c0 - (c1 c2 + s (c2^2 - 2 c1 c3))/(3 c3), which tells more where
+// the slope only just touches 0: the place of the maximum is then known by a square root of rounding.
 Expr summit_is_negative(const LocalPolynomial& d, Expr duration, bool strict) {
   const LocalPolynomial slope = d.derivative();
   const Expr c1 = slope.coefficients[0], c2 = slope.coefficients[1], c3 = slope.coefficients[2];
@@ -85,10 +74,7 @@ Expr summit_is_negative(const LocalPolynomial& d, Expr duration, bool strict) {
   const Expr late = if_then_else(c3 < zero && c2 >= zero, sum(c2, root) / negated(c3), early);
   const Expr summit = max(zero, min(late, duration));
   const Expr remainder = d.coefficients[0] - (c1 * c2 + summit * discriminant) / (3.0 * c3);
-  LocalPolynomial fallen = slope;
-  for (Expr& coefficient : fallen.coefficients) coefficient = negated(coefficient);
-  return is_nowhere_negative(slope, duration) || is_nowhere_negative(fallen, duration) ||
-         compared(d.at(summit), zero, strict) || compared(remainder, zero, strict);
+  return compared(d.at(summit), zero, strict) || compared(remainder, zero, strict);
 }
 
 // a - b, of which the constant terms are told apart: the value is compared at the ends.
@@ -102,6 +88,31 @@ LocalPolynomial minus(const LocalPolynomial& a, const LocalPolynomial& b) {
   while (result.degree() > 0 && folding::is_number(result.coefficients.back(), 0.0))
     result.coefficients.pop_back();
   return result;
+}
+
+// The slope of a piece: its value at the end is what a derivative is at that gate, which may be known.
+Piece slope_of(const Piece& piece, Expr duration) {
+  const LocalPolynomial slope = piece.polynomial.derivative();
+  return {slope, slope.at(duration)};
+}
+
+// p <= q on one phase; false where the degree of p - q is too high.
+bool add_less(const Piece& p, const Piece& q, Expr duration, bool strict, std::vector<Expr>& all) {
+  all.push_back(ordered(p.start(), q.start(), strict));
+  all.push_back(ordered(p.end, q.end, strict));
+  const LocalPolynomial between = minus(p.polynomial, q.polynomial);
+  if (between.degree() > 3) return false;
+  if (between.degree() == 2) all.push_back(vertex_is_negative(p.polynomial, q.polynomial, duration, strict));
+  if (between.degree() == 3) {
+    const Piece rise = slope_of(p, duration), other = slope_of(q, duration);
+    std::vector<Expr> falls, rises;
+    add_less(rise, other, duration, false, falls);
+    add_less(other, rise, duration, false, rises);
+    all.push_back(folding::conjunction(duration.dag(), falls) ||
+                  folding::conjunction(duration.dag(), rises) ||
+                  summit_is_negative(between, duration, strict));
+  }
+  return true;
 }
 
 }  // namespace
@@ -126,14 +137,7 @@ std::optional<std::vector<Expr>> less_for_all_time(const std::vector<Expr>& dura
                                                    const PhaseFunction& b, bool strict) {
   std::vector<Expr> all;
   for (std::size_t i = 0; i < durations.size(); ++i) {
-    const Piece &p = a.pieces()[i], &q = b.pieces()[i];
-    all.push_back(ordered(p.start(), q.start(), strict));
-    all.push_back(ordered(p.end, q.end, strict));
-    const LocalPolynomial between = minus(p.polynomial, q.polynomial);
-    if (between.degree() > 3) return {};
-    if (between.degree() == 2)
-      all.push_back(vertex_is_negative(p.polynomial, q.polynomial, durations[i], strict));
-    if (between.degree() == 3) all.push_back(summit_is_negative(between, durations[i], strict));
+    if (!add_less(a.pieces()[i], b.pieces()[i], durations[i], strict, all)) return {};
   }
   return all;
 }

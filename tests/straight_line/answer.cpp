@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include <fmt/format.h>
+
 #include "tests/verifier/precise.h"
 
 namespace hcsp::straight_line {
@@ -182,7 +184,7 @@ class Check {
       const auto check = [&](const Precise& x) {
         if (x.lies_in(range)) return;
         if (!x.meets(range))
-          fault(std::string("beyond ") + upper + place(k, i));
+          fault(std::string("beyond ") + upper + place(k, i) + ": " + fmt::format("{}", x.middle()));
         else if (!x.lies_in(nearly))
           fault(std::string("perhaps beyond ") + upper + place(k, i));
       };
