@@ -14,6 +14,7 @@ namespace {
 
 constexpr std::size_t kMostWaiting = 4096;
 constexpr double kMiddle = 0.5;
+constexpr double kNarrow = 1e-3;  // relatively: Newton's method does the rest
 
 std::size_t most_tests(const std::vector<CompiledCase>& cases) {
   return most(cases, [](const Code& code) { return code.tests.size(); });
@@ -38,6 +39,11 @@ double cut_of(const Interval& x) {
   if (x.hi() == kInfinity) return std::max(1.0, kFar * x.lo());
   return x.hi() > kWide * x.lo() ? std::max(x.hi() / kWide, std::sqrt(x.lo()) * std::sqrt(x.hi()))
                                  : middle(x);
+}
+
+double relative_width(const Interval& x) {
+  const double magnitude = std::max(std::abs(x.lo()), std::abs(x.hi()));
+  return magnitude < kInfinity ? (x.hi() - x.lo()) / std::max(1.0, magnitude) : kInfinity;
 }
 
 }  // namespace
@@ -324,18 +330,39 @@ void Search::look_at(std::span<Interval> box) {
   split(of.search, box, lower);
 }
 
+// The active unknowns of that equation which has the fewest of those that are not narrow: equations that
+// others wait for come first, as in a triangular system. What holds in the middle may be an identity, and
+// does not count.
+std::uint64_t Search::first_to_cut(const Code& code, std::span<const Interval> box) {
+  std::uint64_t wide = 0;
+  for (std::size_t v = 0; v < box.size(); ++v) {
+    const double x = middle(box[v]);
+    part_[v] = Interval::raw(x, x);
+    if (relative_width(box[v]) > kNarrow) wide |= std::uint64_t{1} << v;
+  }
+  wide &= fronts_[case_].active;
+  if (__builtin_popcountll(wide) < 2) return wide == 0 ? fronts_[case_].active : wide;
+  machine_.evaluate(code, {part_.data(), box.size()}, Code::main);
+  std::uint64_t fewest = wide;
+  for (std::size_t i = 0; i < code.ends[Code::main].tests; ++i) {
+    const Test& test = code.tests[i];
+    if (!test.is_equation || test.is_truth || test.reg < code.first()) continue;
+    const Interval& value = machine_.value(test.reg);
+    const std::uint64_t own = code.depends[test.reg - code.first()] & wide;
+    const bool is_violated = !value.is_empty() && !value.contains(0.0);
+    const bool is_smaller = own != 0 && __builtin_popcountll(own) < __builtin_popcountll(fewest);
+    if (is_violated && is_smaller) fewest = own;
+  }
+  return fewest;
+}
+
 // Cuts the widest side, relative to how large it is.
 void Search::split(const Code& code, std::span<const Interval> box, double lower) {
   std::size_t widest = code.core();
-  double most_width = 0.0;
+  const std::uint64_t among = first_to_cut(code, box);
   for (std::size_t v = 0; v < code.core(); ++v) {
-    const Interval& x = box[v];
-    if (((fronts_[case_].active >> v) & 1U) == 0) continue;
-    const double magnitude = std::max(std::abs(x.lo()), std::abs(x.hi()));
-    const double own = magnitude < kInfinity ? (x.hi() - x.lo()) / std::max(1.0, magnitude) : kInfinity;
-    if (widest < code.core() && !(own > most_width)) continue;
-    widest = v;
-    most_width = own;
+    if (((among >> v) & 1U) == 0) continue;
+    if (widest == code.core() || relative_width(box[v]) > relative_width(box[widest])) widest = v;
   }
   const double cut = cut_of(box[widest]);
   if (!waiting_.has_room_for(2) || !(box[widest].lo() < cut && cut < box[widest].hi())) {

@@ -81,6 +81,7 @@ class Search {
   bool try_part(const CompiledCase& of, double place, Proof::By by);
   bool try_point(const CompiledCase& of, double place, Proof::By by);
   void put_data(const Code& code, double place);
+  std::uint64_t first_to_cut(const Code& code, std::span<const Interval> box);
   void split(const Code& code, std::span<const Interval> box, double lower);
   void note_size(std::span<const Interval> box);
   [[nodiscard]] bool is_worth_trying(bool is_last);

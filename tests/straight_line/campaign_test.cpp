@@ -74,7 +74,8 @@ struct Tally {
   }
 };
 
-std::string g_where; std::size_t g_boxes;
+std::string g_where;
+std::size_t g_boxes;
 /// Types VI to IX need not be solved, but must not be wrong.
 void expect_not_wrong(const KnownMove& known, Answer answer, Tally& tally) {
   const Move& move = known.move;
@@ -88,13 +89,17 @@ void expect_not_wrong(const KnownMove& known, Answer answer, Tally& tally) {
   }
   ++tally.answers[answer.status + (stops ? " from within" : " from beyond")];
   EXPECT_NE(answer.status, "infeasible") << answer.reason;
-  if (answer.status == "undecided") std::cout << "UNDEC " << g_where << (stops ? " within " : " beyond ") << g_boxes << " | " << move.text() << '\n';
+  if (answer.status == "undecided")
+    std::cout << "UNDEC " << g_where << (stops ? " within " : " beyond ") << g_boxes << " | " << move.text()
+              << '\n';
   if (answer.status != "solved") return;
   tally.wide += answer.bracket.hi - answer.bracket.lo > 2e-9 * std::max(1.0, answer.bracket.hi) ? 1 : 0;
   if (!stops && is_narrow(l, snap)) answer.braking = 13;
   EXPECT_THAT(faults(move, answer, 1e-7), ::testing::IsEmpty());
   const Line line = line_of(move, answer);
-  if (stops) EXPECT_GE(answer.T.hi, least_with_snap(line, move) - 1e-9);
+  if (stops) {
+    EXPECT_GE(answer.T.hi, least_with_snap(line, move) - 1e-9);
+  }
   const auto& ends = {line.from.b, line.to.b, known.line.from_jerk, known.line.to_jerk};
   if (stops && std::all_of(ends.begin(), ends.end(), [](const Number& x) { return x == 0; })) {
     EXPECT_LE(answer.bracket.lo, enough_with_snap(line, move) + 1e-9);
@@ -141,7 +146,9 @@ class Campaign : public ::testing::TestWithParam<int> {
     const double jerk = GetParam() >= 6 ? library().jerk_at(time) : 0;
     KnownMove next = replanned(draw, on_line, {0, now.w, now.b}, jerk);
     SCOPED_TRACE("after a re-plan: " + next.move.text());
-    const Answer again = library().solve(next.move); g_boxes = library().compiled().boxes(); g_where += " replan";
+    const Answer again = library().solve(next.move);
+    g_boxes = library().compiled().boxes();
+    g_where += " replan";
     expect_right(next, again, ask_oracle, tally_);
   }
 };

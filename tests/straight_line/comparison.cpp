@@ -46,7 +46,9 @@ double enough_with_snap(const Line& line, const Move& move) {
   const Number h = (l.uh - l.ul) / snap_on(line.rho, move);
   Line shorter = line;
   shorter.to.q -= (line.from.w + line.to.w) * h / 2;
-  return (fastest_along(shorter, of_type_five(move))->duration() + h).convert_to<double>();
+  const std::optional<Profile> fastest = fastest_along(shorter, of_type_five(move));
+  if (!fastest) return std::numeric_limits<double>::infinity();
+  return (fastest->duration() + h).convert_to<double>();
 }
 
 }  // namespace hcsp::straight_line

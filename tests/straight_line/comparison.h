@@ -22,7 +22,7 @@ Comparison compared_with_oracle(const Move& move, const Answer& answer);
 double least_with_snap(const Line& line, const Move& move);
 /// ...and with acceleration and jerk 0 at both ends one takes as much: the mean, over a time h, of a motion
 /// of type V that goes on with its velocities at both ends is within all limits, and its jerk, which differs
-/// by at most 2 J in that time, changes by 2 J/h at most.
+/// by at most 2 J in that time, changes by 2 J/h at most. Infinite where that motion cannot be.
 double enough_with_snap(const Line& line, const Move& move);
 
 }  // namespace hcsp::straight_line
