@@ -23,6 +23,7 @@ Proof::Proof(Machine& machine, std::size_t most_tests, std::size_t most_core)
       unknowns_(most_core),
       point_(most_core),
       changes_(most_core),
+      greatest_(most_core),
       is_active_(most_tests),
       is_solved_(most_tests),
       rows_(most_tests),
@@ -127,7 +128,8 @@ double Proof::change_of(std::size_t k) {
   return is_halved ? kAll * change : change;
 }
 
-// Newton's method in floating point. Where a step is small the next would be far smaller.
+// Newton's method in floating point. Where a step is small, next to all that an unknown was on the way, the
+// next would be far smaller.
 bool Proof::correct() {
   constexpr int kMostSteps = 20;
   constexpr int kMostVain = 2;
@@ -136,6 +138,7 @@ bool Proof::correct() {
   collect_rows();
   std::fill_n(least_.begin(), row_count_, kInfinity);
   std::fill_n(changes_.begin(), size_, 0.0);
+  std::fill_n(greatest_.begin(), size_, std::numeric_limits<double>::min());
   int vain = 0;
   double before = kInfinity;
   for (int step = 0; step < kMostSteps; ++step) {
@@ -147,17 +150,19 @@ bool Proof::correct() {
     // Data are solved for only where the others do not do.
     if (!fill_matrix(free_)) return false;
     if (pivoting_.rank() < row_count_ && !fill_matrix(all_)) return false;
-    double most = 0.0;
+    double most = 0.0, most_of_all = 0.0;
     for (std::size_t k = 0; k < pivoting_.rank(); ++k) {
       const std::uint32_t v = unknowns_[pivoting_.column(k)];
       const double change = change_of(k);
+      greatest_[v] = std::max(greatest_[v], std::abs(point_[v]));
       point_[v] += change;
-      most = std::max(most,
-                      std::abs(change) / std::max(std::abs(point_[v]), std::numeric_limits<double>::min()));
+      const double size = std::max(std::abs(point_[v]), std::numeric_limits<double>::min());
+      most = std::max(most, std::abs(change) / size);
+      most_of_all = std::max(most_of_all, std::abs(change) / std::max(size, greatest_[v]));
     }
     if (!(most < kInfinity)) return false;
     const bool is_square = most < kSquare && most < kMuchSmaller * before;
-    if (is_square || most < kSmall || (vain >= kMostVain && most < kNear)) break;
+    if (is_square || most_of_all < kSmall || (vain >= kMostVain && most < kNear)) break;
     before = most;
   }
   keep_within_domains();

@@ -38,9 +38,11 @@ bool Search::is_refuted_by_givens(std::size_t number, bool& is_regular) {
   };
   const Code& code = cases_[number].search;
   const Test& likely = likely_[number];
-  if (code.quick > 0 && !likely.is_of_quotient && refutes(likely)) return true;
+  const bool has_likely = code.quick > 0;
+  if (has_likely && !likely.is_of_quotient && refutes(likely)) return true;
   is_regular = std::none_of(code.nonzero.begin(), code.nonzero.end(),
                             [&](Register factor) { return machine_.value(factor).contains(0.0); });
+  if (has_likely && likely.is_of_quotient && refutes(likely)) return true;
   const std::span<const Test> conditions = code.conditions;
   for (const Test& test : conditions.first(code.quick)) {
     if (!refutes(test)) continue;

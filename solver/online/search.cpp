@@ -73,7 +73,6 @@ Search::Search(Machine& machine, const std::vector<CompiledCase>& cases, const G
   std::iota(order_.begin(), order_.end(), std::size_t{0});
   for (std::size_t i = 0; i < cases.size(); ++i) {
     last_[i].search.resize(cases[i].search.core());
-    last_[i].proof.resize(cases[i].proof.core());
     sizes_.emplace_back(cases[i].search.core());
     const Code& code = cases[i].search;
     likely_.push_back(code.quick > 0 ? code.conditions[0]
@@ -183,9 +182,15 @@ bool Search::find_domains(const Code& code, std::span<const Interval> declared, 
   return true;
 }
 
-void Search::try_last(const CompiledCase& of) {
-  std::copy(last_[case_].proof.begin(), last_[case_].proof.end(), candidate_.begin());
-  try_point(of, kMiddle, Proof::By::unknowns);
+// What the case had found, as far as that is in its box: what follows from it and from the parameters is then
+// near the solution, too.
+void Search::try_last(const CompiledCase& of, std::span<const Interval> box) {
+  const std::vector<double>& last = last_[case_].search;
+  for (std::size_t v = 0; v < box.size(); ++v) {
+    const double x = std::min(std::max(last[v], box[v].lo()), box[v].hi());
+    part_[v] = Interval::raw(x, x);
+  }
+  try_part(of, kMiddle, Proof::By::unknowns);
 }
 
 // The middle of a box, and 0 where that is at an end: where all rests, equations are often singular, and hold
@@ -244,7 +249,6 @@ bool Search::try_point(const CompiledCase& of, double place, Proof::By by) {
   finding_.best_case = case_;
   std::copy(proof_.box().begin(), proof_.box().end(), solution_.begin());
   Last& last = last_[case_];
-  for (std::size_t v = 0; v < core; ++v) last.proof[v] = middle(solution_[v]);
   machine_.evaluate_rest(of.proof);
   for (std::size_t v = 0; v < of.found.size(); ++v) {
     const Source& source = of.found[v];
@@ -291,7 +295,7 @@ bool Search::is_worth_trying(bool is_last) {
 void Search::explore() {
   if (waiting_.empty()) return;
   case_ = waiting_.owner();
-  if (last_[case_].is_known) try_last(cases_[case_]);
+  if (last_[case_].is_known) try_last(cases_[case_], waiting_.box().first(cases_[case_].search.core()));
   while (!waiting_.empty() && !(finding_.is_found && !has_objective_)) {
     if (++boxes_ > limits_.boxes) {
       finding_.is_exhausted = true;

@@ -76,7 +76,7 @@ class Search {
   bool is_provable(const CompiledCase& of);
   bool find_domains(const Code& code, std::span<const Interval> declared, bool is_inner,
                     std::span<Interval> domains);
-  void try_last(const CompiledCase& of);
+  void try_last(const CompiledCase& of, std::span<const Interval> box);
   bool try_box(const CompiledCase& of, std::span<const Interval> box, bool is_leaf);
   bool try_part(const CompiledCase& of, double place, Proof::By by);
   bool try_point(const CompiledCase& of, double place, Proof::By by);
@@ -103,7 +103,7 @@ class Search {
   std::vector<std::uint32_t> refutations_;  // by name
   struct Last {
     bool is_known = false;
-    std::vector<double> search, proof;  // points of the cores
+    std::vector<double> search;  // a point of its core
   };
   std::vector<Last> last_;    // by case
   std::vector<Test> likely_;  // by case: a quick condition, the one that refuted it last

@@ -42,6 +42,10 @@ class WaitingBoxes {
   }
   /// Whose box comes next. PRECONDITION: not empty.
   [[nodiscard]] std::uint32_t owner() const { return waiting_.front().owner; }
+  /// That box, and perhaps more behind it. PRECONDITION: not empty.
+  [[nodiscard]] std::span<const Interval> box() const {
+    return std::span(boxes_).subspan(waiting_.front().place * longest_, longest_);
+  }
   /// Takes the box with the least lower bound, of equal ones the last that came. PRECONDITION: not empty.
   void pop(std::span<Interval> box) {
     std::pop_heap(waiting_.begin(), waiting_.end(), is_later);
