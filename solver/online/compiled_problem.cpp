@@ -110,8 +110,7 @@ void CompiledProblem::Impl::solve() {
 
 void CompiledProblem::Impl::read_solution(const online::Finding& finding) {
   const online::CompiledCase& of = compiled.cases[finding.best_case];
-  machine.evaluate(of.proof, search.solution().first(of.proof.core()));
-  machine.evaluate_rest(of.proof);
+  machine.recall(of.proof);
   machine.evaluate_further(of.proof);
   const std::vector<online::Source>& sources = compiled.sources[finding.best_case];
   for (std::size_t v = 0; v < values.size(); ++v) {

@@ -18,6 +18,7 @@ Machine::Machine(const Prefix& prefix, std::size_t own_registers, std::size_t co
     : first_(prefix.size()),
       values_(prefix.size() + own_registers),
       slopes_((own_registers + 1) * core),
+      kept_(own_registers),
       flags_(values_.size(), kDefined | kLipschitz),
       needed_(values_.size()),
       reals_(values_.size()),
@@ -91,6 +92,13 @@ void Machine::load(const Code& code, std::span<const Interval> box) {
 void Machine::evaluate(const Code& code, std::span<const Interval> box, Code::Stage last) {
   load(code, box);
   run(std::span(code.values).first(code.ends[last].values));
+}
+
+void Machine::keep(const Code& code) {
+  std::copy_n(values_.begin() + code.first(), code.registers(), kept_.begin());
+}
+void Machine::recall(const Code& code) {
+  std::copy_n(kept_.begin(), code.registers(), values_.begin() + code.first());
 }
 
 bool Machine::evaluate_while_possible(const Code& code, std::span<const Interval> box, Code::Stage last) {

@@ -84,6 +84,10 @@ class Machine {
   bool backward(const Code& code, double best);
   [[nodiscard]] std::uint32_t refuted_by() const { return refuted_by_; }
 
+  /// Puts aside what a code's own registers hold, and brings it back.
+  void keep(const Code& code);
+  void recall(const Code& code);
+
   /// What a code reads of the prefix, in floating point.
   void load_real(const Code& code);
   /// The same expressions in floating point, at a point; derivatives, where a kink has the one of a side.
@@ -126,7 +130,7 @@ class Machine {
 
   Register first_;  // own register
   std::size_t columns_ = 0, real_columns_ = 0;
-  std::vector<Interval> values_, slopes_;
+  std::vector<Interval> values_, slopes_, kept_;
   std::vector<std::uint8_t> flags_, needed_;
   std::vector<double> reals_, real_slopes_;
   std::vector<Side> sides_;  // by surface

@@ -132,7 +132,7 @@ double Proof::change_of(std::size_t k) {
 // next would be far smaller.
 bool Proof::correct() {
   constexpr int kMostSteps = 20;
-  constexpr int kMostVain = 2;
+  constexpr int kMostVain = 2, kAstray = 6;
   constexpr double kSmall = 1e-12;  // next to what data play, or a kink may be on the way
   constexpr double kNear = 1e-2, kSquare = 1e-7, kMuchSmaller = 1e-3;
   collect_rows();
@@ -162,7 +162,8 @@ bool Proof::correct() {
     }
     if (!(most < kInfinity)) return false;
     const bool is_square = most < kSquare && most < kMuchSmaller * before;
-    if (is_square || most_of_all < kSmall || (vain >= kMostVain && most < kNear)) break;
+    const bool is_vain = vain >= kAstray || (vain >= kMostVain && most < kNear);
+    if (is_square || most_of_all < kSmall || is_vain) break;
     before = most;
   }
   keep_within_domains();

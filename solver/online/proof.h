@@ -17,10 +17,9 @@ class Proof {
   /// What is solved for: unknowns, and data where these do not do; or data alone, the unknowns being as they
   /// are. The latter where equations are singular in the unknowns: many solutions, one of them near enough.
   enum class By : std::uint8_t { unknowns, data };
-  /// Looks for one near `near`, with every unknown of the core in `domains`. Then box() holds it, and the
-  /// machine is evaluated there. PRECONDITION: the thread rounds upward.
+  /// Looks for one near `near`, with every unknown of the core in `domains`. Then the machine is
+  /// evaluated on a box that holds it. PRECONDITION: the thread rounds upward.
   bool find(const Code& code, std::span<const double> near, std::span<const Interval> domains, By by);
-  [[nodiscard]] std::span<const Interval> box() const { return {box_.data(), size_}; }
 
  private:
   void keep_within_domains();

@@ -67,7 +67,6 @@ Search::Search(Machine& machine, const std::vector<CompiledCase>& cases, const G
       proof_domains_(most_core(cases)),
       box_(most_core(cases)),
       part_(most_core(cases)),
-      solution_(most_core(cases)),
       waiting_(kMostWaiting, most_core(cases)),
       candidate_(most_core(cases)) {
   std::iota(order_.begin(), order_.end(), std::size_t{0});
@@ -247,9 +246,9 @@ bool Search::try_point(const CompiledCase& of, double place, Proof::By by) {
   finding_.is_found = true;
   finding_.best = value;
   finding_.best_case = case_;
-  std::copy(proof_.box().begin(), proof_.box().end(), solution_.begin());
   Last& last = last_[case_];
   machine_.evaluate_rest(of.proof);
+  machine_.keep(of.proof);
   for (std::size_t v = 0; v < of.found.size(); ++v) {
     const Source& source = of.found[v];
     last.search[v] = middle(source.is_register ? machine_.value(source.reg) : source.value);

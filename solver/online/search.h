@@ -58,10 +58,9 @@ class Search {
   Search(Machine& machine, const std::vector<CompiledCase>& cases, const Givens& givens,
          const std::vector<bool>& is_decisive, bool has_objective, const Limits& limits);
 
+  /// What was found, if anything: the machine keeps it, the registers of the proof of that case.
   /// PRECONDITION: the parameters are in the machine, and the thread rounds upward.
   const Finding& run();
-  /// The best solution: the core of its case's proof.
-  [[nodiscard]] std::span<const Interval> solution() const { return solution_; }
   [[nodiscard]] std::size_t boxes() const { return boxes_; }
   /// Forgets where the last solutions were.
   void forget();
@@ -120,7 +119,7 @@ class Search {
     Attempts at_ends, on_the_way;
   };
   std::vector<Front> fronts_;  // by case
-  std::vector<Interval> domains_, proof_domains_, box_, part_, solution_;
+  std::vector<Interval> domains_, proof_domains_, box_, part_;
   WaitingBoxes waiting_;
   std::vector<double> candidate_;
   std::vector<std::vector<double>> sizes_;  // by case, by unknown of the core: of the first box
