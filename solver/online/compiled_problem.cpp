@@ -100,7 +100,7 @@ void CompiledProblem::Impl::solve() {
   }
   const bool is_refuted = !is_found && !finding.is_exhausted && finding.lower == kInfinity;
   const bool is_bracketed =
-      !compiled.has_objective || objective.width() <= gap * std::max(1.0, objective.mag());
+      !compiled.has_objective || objective.width() <= gap * std::max(1.0, std::abs(objective.hi()));
   const bool is_of_all = finding.is_decided || !compiled.has_family;
   status = is_refuted && is_of_all    ? OnlineStatus::infeasible
            : is_found && is_bracketed ? OnlineStatus::solved

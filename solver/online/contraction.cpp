@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "domains/interval/kernel.h"
+#include "solver/online/middle.h"
 
 namespace hcsp::online {
 
@@ -13,10 +14,6 @@ namespace {
 const Interval kZero = Interval::raw(0.0, 0.0);
 
 double width(const Interval& x) { return x.hi() - x.lo(); }
-Interval middle(const Interval& x) {
-  const double c = std::min(std::max(0.5 * x.lo() + 0.5 * x.hi(), x.lo()), x.hi());
-  return Interval::raw(c, c);
-}
 
 }  // namespace
 
@@ -122,7 +119,8 @@ void Contraction::evaluate_forms() {
   std::copy(box_.begin(), box_.end(), center_.begin());
   for_each_active([&](std::size_t v) {
     const bool is_near = !near_.empty() && box_[v].contains(near_[v]);
-    center_[v] = is_near ? Interval::raw(near_[v], near_[v]) : middle(box_[v]);
+    const double x = is_near ? near_[v] : middle(box_[v]);
+    center_[v] = Interval::raw(x, x);
   });
   machine_.evaluate(*code_, {center_.data(), core}, Code::main);
   for (std::size_t i = 0; i < tests; ++i) form_values_[i] = machine_.value(code_->tests[i].reg);
@@ -293,7 +291,7 @@ void Contraction::find_whether_settled() {
     const bool is_local = width(before_[v]) <= kLocal * size;  // or its centre tells of elsewhere
     const double noise = is_local && noise_[v] < kInfinity ? kFilled * noise_[v] : 0.0;
     const double spacing = kTiny * size + std::numeric_limits<double>::min();
-    all = all && width(x) <= std::max(noise, spacing);
+    all = all && x.is_bounded() && width(x) <= std::max(noise, spacing);
   });
   is_settled_ = all || (active_count_ == 1 && is_all_noise(kFilled));
 }

@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "domains/interval/kernel.h"
+#include "solver/online/middle.h"
 #include "solver/online/play.h"
 
 namespace hcsp::online {
@@ -13,7 +14,6 @@ namespace hcsp::online {
 namespace {
 
 constexpr std::size_t kMostWaiting = 4096;
-constexpr double kMiddle = 0.5;
 constexpr double kNarrow = 1e-3;  // relatively: Newton's method does the rest
 
 std::size_t most_tests(const std::vector<CompiledCase>& cases) {
@@ -21,11 +21,6 @@ std::size_t most_tests(const std::vector<CompiledCase>& cases) {
 }
 std::size_t most_core(const std::vector<CompiledCase>& cases) {
   return most(cases, [](const Code& code) { return code.core(); });
-}
-
-double middle(const Interval& x) {
-  if (!x.is_bounded()) return x.lo() > -kInfinity ? x.lo() : x.hi() < kInfinity ? x.hi() : 0.0;
-  return std::min(std::max(0.5 * x.lo() + 0.5 * x.hi(), x.lo()), x.hi());
 }
 
 // Where to cut: a wide domain by orders of magnitude.
@@ -68,10 +63,12 @@ Search::Search(Machine& machine, const std::vector<CompiledCase>& cases, const G
       box_(most_core(cases)),
       part_(most_core(cases)),
       waiting_(kMostWaiting, most_core(cases)),
-      candidate_(most_core(cases)) {
+      candidate_(most_core(cases)),
+      places_(most_core(cases)) {
   std::iota(order_.begin(), order_.end(), std::size_t{0});
   for (std::size_t i = 0; i < cases.size(); ++i) {
     last_[i].search.resize(cases[i].search.core());
+    last_[i].places.resize(cases[i].proof.core());
     sizes_.emplace_back(cases[i].search.core());
     const Code& code = cases[i].search;
     likely_.push_back(code.quick > 0 ? code.conditions[0]
@@ -145,27 +142,6 @@ void Search::open(std::size_t number) {
   waiting_.push({domains_.data(), code.core()}, static_cast<std::uint32_t>(number), -kInfinity);
 }
 
-// Whether all that is given of a proof is certain; then its prelude is evaluated.
-bool Search::is_provable(const CompiledCase& of) {
-  const auto all_hold = [&](std::span<const Test> tests) {
-    return std::all_of(tests.begin(), tests.end(), [&](const Test& test) { return machine_.holds(test); });
-  };
-  if (is_any_provable_ == Provable::unknown) {
-    machine_.evaluate(givens_.proof);
-    is_any_provable_ = all_hold(givens_.certain) ? Provable::yes : Provable::no;
-  }
-  if (is_any_provable_ == Provable::no) return false;
-  if (provable_[case_] == Provable::unknown) {
-    machine_.evaluate(of.proof.prelude);
-    machine_.load_real(of.proof);
-    const bool is_regular =
-        std::none_of(of.proof.nonzero.begin(), of.proof.nonzero.end(),
-                     [&](Register factor) { return machine_.value(factor).contains(0.0); });
-    provable_[case_] = is_regular && all_hold(of.proof.conditions) ? Provable::yes : Provable::no;
-  }
-  return provable_[case_] == Provable::yes;
-}
-
 // Domains as declared and as parameters bound them: of all that could be, or of what certainly is.
 bool Search::find_domains(const Code& code, std::span<const Interval> declared, bool is_inner,
                           std::span<Interval> domains) {
@@ -178,82 +154,6 @@ bool Search::find_domains(const Code& code, std::span<const Interval> declared, 
     domain = meet(domain, bound.is_upper ? Interval::raw(-kInfinity, end) : Interval::raw(end, kInfinity));
     if (domain.is_empty()) return false;
   }
-  return true;
-}
-
-// What the case had found, as far as that is in its box: what follows from it and from the parameters is then
-// near the solution, too.
-void Search::try_last(const CompiledCase& of, std::span<const Interval> box) {
-  const std::vector<double>& last = last_[case_].search;
-  for (std::size_t v = 0; v < box.size(); ++v) {
-    const double x = std::min(std::max(last[v], box[v].lo()), box[v].hi());
-    part_[v] = Interval::raw(x, x);
-  }
-  try_part(of, kMiddle, Proof::By::unknowns);
-}
-
-// The middle of a box, and 0 where that is at an end: where all rests, equations are often singular, and hold
-// exactly. Where kinks or inequalities meet exactly, data that are a little aside may be clear of them.
-bool Search::try_box(const CompiledCase& of, std::span<const Interval> box, bool is_leaf) {
-  bool has_zero = false;
-  for (std::size_t v = 0; v < box.size(); ++v) {
-    const double x = middle(box[v]);
-    part_[v] = Interval::raw(x, x);
-    has_zero = has_zero || (x != 0.0 && (box[v].lo() == 0.0 || box[v].hi() == 0.0));
-  }
-  if (try_part(of, kMiddle, Proof::By::unknowns)) return true;
-  for (const double place : {0.25, 0.75}) {
-    if (is_leaf && try_part(of, place, Proof::By::unknowns)) return true;
-  }
-  if (is_leaf && try_part(of, kMiddle, Proof::By::data)) return true;
-  if (!has_zero) return false;
-  for (std::size_t v = 0; v < box.size(); ++v) {
-    if (box[v].lo() == 0.0 || box[v].hi() == 0.0) part_[v] = Interval::raw(0.0, 0.0);
-  }
-  return try_part(of, kMiddle, Proof::By::unknowns);
-}
-
-// A point of the search's core in terms of the proof's.
-bool Search::try_part(const CompiledCase& of, double place, Proof::By by) {
-  machine_.evaluate(of.search, {part_.data(), of.search.core()});
-  machine_.evaluate_rest(of.search);
-  for (std::size_t v = 0; v < of.candidate.size(); ++v) {
-    const Source& source = of.candidate[v];
-    const Interval& x = source.is_register ? machine_.value(source.reg) : source.value;
-    if (x.is_empty()) return false;
-    candidate_[v] = middle(x);
-  }
-  return try_point(of, place, by);
-}
-
-// Data at a place within their play.
-void Search::put_data(const Code& code, double place) {
-  for (std::size_t v = 0; v < code.core(); ++v) {
-    const Interval& x = proof_domains_[v];
-    if (is_thin(x)) candidate_[v] = x.lo() + place * (x.hi() - x.lo());
-  }
-}
-
-bool Search::try_point(const CompiledCase& of, double place, Proof::By by) {
-  if (!is_provable(of)) return false;
-  const std::size_t core = of.proof.core();
-  if (!find_domains(of.proof, of.proof_domains, true, proof_domains_)) return false;
-  put_data(of.proof, place);
-  if (!proof_.find(of.proof, {candidate_.data(), core}, {proof_domains_.data(), core}, by)) return false;
-  const Interval value = has_objective_ ? machine_.value(of.proof.wanted[0]) : Interval::raw(0.0, 0.0);
-  if (has_objective_ && !machine_.is_defined(of.proof.wanted[0])) return false;
-  if (finding_.is_found && !(value.hi() < finding_.best.hi())) return true;
-  finding_.is_found = true;
-  finding_.best = value;
-  finding_.best_case = case_;
-  Last& last = last_[case_];
-  machine_.evaluate_rest(of.proof);
-  machine_.keep(of.proof);
-  for (std::size_t v = 0; v < of.found.size(); ++v) {
-    const Source& source = of.found[v];
-    last.search[v] = middle(source.is_register ? machine_.value(source.reg) : source.value);
-  }
-  last.is_known = true;
   return true;
 }
 

@@ -77,9 +77,8 @@ class Search {
                     std::span<Interval> domains);
   void try_last(const CompiledCase& of, std::span<const Interval> box);
   bool try_box(const CompiledCase& of, std::span<const Interval> box, bool is_leaf);
-  bool try_part(const CompiledCase& of, double place, Proof::By by);
-  bool try_point(const CompiledCase& of, double place, Proof::By by);
-  void put_data(const Code& code, double place);
+  bool try_part(const CompiledCase& of, Proof::By by);
+  void keep(const CompiledCase& of);
   std::uint64_t first_to_cut(const Code& code, std::span<const Interval> box);
   void split(const Code& code, std::span<const Interval> box, double lower);
   void note_size(std::span<const Interval> box);
@@ -103,6 +102,7 @@ class Search {
   struct Last {
     bool is_known = false;
     std::vector<double> search;  // a point of its core
+    std::vector<double> places;  // of data within their play, by unknown of the proof's core
   };
   std::vector<Last> last_;    // by case
   std::vector<Test> likely_;  // by case: a quick condition, the one that refuted it last
@@ -121,7 +121,7 @@ class Search {
   std::vector<Front> fronts_;  // by case
   std::vector<Interval> domains_, proof_domains_, box_, part_;
   WaitingBoxes waiting_;
-  std::vector<double> candidate_;
+  std::vector<double> candidate_, places_;
   std::vector<std::vector<double>> sizes_;  // by case, by unknown of the core: of the first box
 };
 
