@@ -10,9 +10,9 @@
 
 namespace hcsp::online {
 
-/// Near 0 next to none is 1e-11.
+/// Near 0 next to none is 1e-12.
 inline bool is_thin(const Interval& x) {
-  constexpr double kThin = 1e-9, kSmall = 1e-2;
+  constexpr double kThin = 1e-9, kSmall = 1e-3;
   return x.is_bounded() && x.hi() - x.lo() <= kThin * std::max({std::abs(x.lo()), std::abs(x.hi()), kSmall});
 }
 

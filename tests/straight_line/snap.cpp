@@ -34,9 +34,7 @@ std::optional<Number> turn(Moving m, const Number& bl, const Number& ul, const N
 
 bool stays_below(const State& s, const Number& u, const Limits& l, const Number& snap) {
   if (s.w > l.wh || s.b > l.bh || u > l.uh || (u > 0 && s.b + u * u / (2 * snap) > l.bh)) return false;
-  if (s.b <= 0 && (u <= 0 || s.b + u * u / (2 * snap) <= 0)) return true;
-  const std::optional<Number> w = turn({s.w, s.b, u}, l.bl, l.ul, snap);
-  return w && *w <= l.wh;
+  return least_crest(s, u, l, snap) <= l.wh;
 }
 
 Number gain(const Number& change, const Number& jerk, const Number& snap) {
@@ -53,6 +51,12 @@ Number snap_on(const std::vector<Number>& rho, const Move& move) {
     if (rho[k] != 0) snap = std::min(snap, Number(move.dmax[k] / abs(rho[k])));
   }
   return snap;
+}
+
+Number least_crest(const State& s, const Number& u, const Limits& l, const Number& snap) {
+  if (s.b <= 0 && (u <= 0 || s.b + u * u / (2 * snap) <= 0)) return s.w;
+  const std::optional<Number> w = turn({s.w, s.b, u}, l.bl, l.ul, snap);
+  return w ? std::max(*w, s.w) : std::numeric_limits<Number>::infinity();
 }
 
 bool can_stop_with_snap(const State& s, const Number& jerk, const Limits& l, const Number& snap) {

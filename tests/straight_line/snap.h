@@ -17,6 +17,10 @@ bool can_stop_with_snap(const State& state, const Number& jerk, const Limits& li
 bool can_have_started_with_snap(const State& state, const Number& jerk, const Limits& limits,
                                 const Number& snap);
 
+/// The greatest velocity of the motion that turns its acceleration as fast as possible, until it falls;
+/// infinite where the turn is under way too fast already.
+Number least_crest(const State& state, const Number& jerk, const Limits& limits, const Number& snap);
+
 /// Whether velocities are so close to each other that what turns may come out on the other side: braking may
 /// then be all of the first half.
 bool is_narrow(const Limits& limits, const Number& snap);
