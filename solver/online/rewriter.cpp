@@ -67,7 +67,19 @@ struct Folding {
     if (is(a, 0.0)) return negated(b);
     if (a == b && may_drop(a)) return number(0.0);
     if (is_negation(b)) return make(Op::add, a, inner(b), 0);
-    return kNone;
+    return of_extremum();
+  }
+  // max(x, y) - x is not negative, by form.
+  [[nodiscard]] NodeId of_extremum() const {
+    const auto other = [&](NodeId extremum, NodeId one) {
+      const DagNode& node = dag[extremum];
+      if (node.op != Op::min && node.op != Op::max) return kNone;
+      return node.operands[0] == one ? node.operands[1] : node.operands[1] == one ? node.operands[0] : kNone;
+    };
+    const NodeId x = other(a, b), y = other(b, a);
+    if (x != kNone) return make(dag[a].op, make(Op::sub, x, b), number(0.0));
+    if (y == kNone) return kNone;
+    return make(dag[b].op == Op::min ? Op::max : Op::min, make(Op::sub, a, y), number(0.0));
   }
   [[nodiscard]] NodeId product() const {
     if (is(a, 1.0)) return b;

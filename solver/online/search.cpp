@@ -235,16 +235,19 @@ void Search::look_at(std::span<Interval> box) {
 
 // The active unknowns of that equation which has the fewest of those that are not narrow: equations that
 // others wait for come first, as in a triangular system. What holds in the middle may be an identity, and
-// does not count.
+// does not count. Before all that what has no bounds, of which no slopes are known.
 std::uint64_t Search::first_to_cut(const Code& code, std::span<const Interval> box) {
-  std::uint64_t wide = 0;
+  std::uint64_t wide = 0, endless = 0;
   for (std::size_t v = 0; v < box.size(); ++v) {
-    const double x = middle(box[v]);
+    const double x = middle(box[v]), width = relative_width(box[v]);
     part_[v] = Interval::raw(x, x);
-    if (relative_width(box[v]) > kNarrow) wide |= std::uint64_t{1} << v;
+    if (width > kNarrow) wide |= std::uint64_t{1} << v;
+    if (width == kInfinity) endless |= std::uint64_t{1} << v;
   }
-  wide &= fronts_[case_].active;
-  if (__builtin_popcountll(wide) < 2) return wide == 0 ? fronts_[case_].active : wide;
+  const std::uint64_t active = fronts_[case_].active;
+  wide &= active;
+  if ((endless & active) != 0) return endless & active;
+  if (__builtin_popcountll(wide) < 2) return wide == 0 ? active : wide;
   machine_.evaluate(code, {part_.data(), box.size()}, Code::main);
   std::uint64_t fewest = wide;
   for (std::size_t i = 0; i < code.ends[Code::main].tests; ++i) {
