@@ -74,16 +74,9 @@ struct Tally {
   }
 };
 
-/// A state that is at a limit up to what the box around it has may be beyond.
-bool stops_clearly(const KnownMove& known, const Limits& l, const Number& snap) {
-  const Number more = 1 + Number(known.move.tol);
-  const State& s = known.line.from;
-  return can_stop_with_snap({s.q, more * s.w, more * s.b}, more * known.line.from_jerk, l, snap);
-}
-
 /// Where velocities are narrow braking is all of the first half, to rest within them: it leaves them no
-/// further than turning as fast as possible does, or rests at one of their ends, where it may not turn
-/// faster.
+/// further than turning as fast as possible does, or rests at the end that is far from where it leaves them,
+/// where it may not turn faster.
 void expect_no_needless_excess(const Move& move, Answer answer) {
   const Line line = line_of(move, answer);
   const Limits l = limits_on(line.rho, move);
@@ -91,12 +84,12 @@ void expect_no_needless_excess(const Move& move, Answer answer) {
   const auto at = [&, k = reference_of(answer)](std::size_t segment, std::size_t order) {
     return Number(answer.segments[segment].joints[k][order].middle());
   };
-  const Number rest = at(13, 1), play = 1e-7 * (l.wh - l.wl);
-  if (abs(rest - l.wl) < play || abs(rest - l.wh) < play) return;
+  const Number rest = at(13, 1), play = 1e-7 * (l.wh - l.wl), far = std::numeric_limits<double>::max();
   const State turn{0, at(2, 1), at(2, 2)};
-  const Number most = std::max(l.wh, least_crest(turn, at(2, 3), l, snap)) + play;
-  const Number least =
-      std::min(l.wl, Number(-least_crest(mirrored(turn), -at(2, 3), mirrored(l), snap))) - play;
+  const Number crest = least_crest(turn, at(2, 3), l, snap),
+               trough = -least_crest(mirrored(turn), -at(2, 3), mirrored(l), snap);
+  const Number most = abs(rest - l.wl) < play ? far : Number(std::max(l.wh, crest) + play);
+  const Number least = abs(rest - l.wh) < play ? Number(-far) : Number(std::min(l.wl, trough) - play);
   Move eased = move;
   for (std::size_t k = 0; k < move.joints(); ++k) {
     const Number a = line.rho[k] * least, b = line.rho[k] * most;
@@ -122,7 +115,7 @@ void expect_not_wrong(const KnownMove& known, Answer answer, Tally& tally) {
   EXPECT_NE(answer.status, "infeasible") << answer.reason;
   if (answer.status != "solved") return;
   tally.wide += answer.bracket.hi - answer.bracket.lo > 2e-9 * std::max(1.0, answer.bracket.hi) ? 1 : 0;
-  if (!stops_clearly(known, l, snap) && is_narrow(l, snap)) {
+  if (is_narrow(l, snap)) {
     answer.braking = 13;
     expect_no_needless_excess(move, answer);
   }
