@@ -52,8 +52,8 @@ class Proof {
   std::vector<std::uint32_t> unknowns_;  // by column of the matrix
   bool is_kinked_ = false;               // kinks are within reach
   bool is_exact_ = false;                // in floating point all rows are 0
-  std::vector<double> point_, changes_,
-      greatest_;  // of each unknown: what Newton's method made of it last; how great it was
+  std::vector<double> point_;
+  std::vector<double> changes_, greatest_;  // by unknown: what a step made of it last; how great it was
   std::vector<std::uint8_t> is_active_, is_solved_;  // by test
   std::vector<std::uint32_t> rows_;                  // tests that are to be 0
   std::vector<double> least_;                        // by row: how near to 0 it was

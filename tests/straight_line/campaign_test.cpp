@@ -88,8 +88,9 @@ void expect_no_needless_excess(const Move& move, Answer answer) {
   const State turn{0, at(2, 1), at(2, 2)};
   const Number crest = least_crest(turn, at(2, 3), l, snap),
                trough = -least_crest(mirrored(turn), -at(2, 3), mirrored(l), snap);
-  const Number most = abs(rest - l.wl) < play ? far : Number(std::max(l.wh, crest) + play);
-  const Number least = abs(rest - l.wh) < play ? Number(-far) : Number(std::min(l.wl, trough) - play);
+  const Number most = abs(rest - l.wl) < play ? far : std::min(far, Number(std::max(l.wh, crest) + play));
+  const Number least =
+      abs(rest - l.wh) < play ? Number(-far) : std::max(Number(-far), Number(std::min(l.wl, trough) - play));
   Move eased = move;
   for (std::size_t k = 0; k < move.joints(); ++k) {
     const Number a = line.rho[k] * least, b = line.rho[k] * most;
