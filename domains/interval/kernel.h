@@ -100,12 +100,24 @@ inline Interval div(const Interval& a, const Interval& b) {
   return Interval::of_bounds(std::bit_cast<Bounds>((is_around_zero & entire) | (~is_around_zero & image)));
 }
 
-/// (-lo, hi) of the square is v |v| for v = (-mig, mag), of the empty set, too.
-inline Interval sqr(const Interval& a) {
+/// (-mig, mag), of the empty set its bounds.
+inline Bounds magnitudes(const Interval& a) {
   const Bounds x = a.bounds(), mag = greatest(x, swapped(x));
   const Bounds minus_mig = least(least(x, swapped(x)), Bounds{-0.0, -0.0});
-  const Bounds v = __builtin_shufflevector(minus_mig, mag, 0, 3);
+  return __builtin_shufflevector(minus_mig, mag, 0, 3);
+}
+
+inline Interval abs(const Interval& a) { return Interval::of_bounds(magnitudes(a)); }
+
+inline Interval sqr(const Interval& a) {
+  const Bounds v = magnitudes(a);
   return Interval::of_bounds(v * magnitude(v));
+}
+
+/// factor a, for a finite factor that is not 0.
+inline Interval scale(double factor, const Interval& a) {
+  const Bounds x = factor < 0.0 ? swapped(a.bounds()) : a.bounds();
+  return Interval::of_bounds(std::abs(factor) * x);
 }
 
 /// The root and the square of a non-empty interval of bounds >= 0.
@@ -115,12 +127,6 @@ inline Bounds square_of_positive(const Bounds& x) { return x * Bounds{-x[0], x[1
 inline Interval sqrt(const Interval& a) {
   if (a.is_empty() || a.hi() < 0) return Interval::empty();
   return Interval::of_bounds(root(least(a.bounds(), Bounds{0.0, kInfinity})));
-}
-
-inline Interval abs(const Interval& a) {
-  if (a.is_empty()) return a;
-  const double small = a.lo() > 0 ? a.lo() : (a.hi() < 0 ? -a.hi() : 0.0);
-  return Interval::raw(small, std::max(-a.lo(), a.hi()));
 }
 
 inline Interval max(const Interval& a, const Interval& b) {

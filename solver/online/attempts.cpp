@@ -31,12 +31,16 @@ bool Search::is_provable(const CompiledCase& of) {
   }
   if (is_any_provable_ == Provable::no) return false;
   if (provable_[case_] == Provable::unknown) {
-    machine_.evaluate(of.proof.prelude);
+    bool all = true;
+    for (const Code::Part& part : of.proof.prelude) {
+      machine_.evaluate(part.code);
+      all = all && all_hold(part.conditions);
+    }
     machine_.load_real(of.proof);
     const bool is_regular =
         std::none_of(of.proof.nonzero.begin(), of.proof.nonzero.end(),
                      [&](Register factor) { return machine_.value(factor).contains(0.0); });
-    provable_[case_] = is_regular && all_hold(of.proof.conditions) ? Provable::yes : Provable::no;
+    provable_[case_] = is_regular && all ? Provable::yes : Provable::no;
   }
   return provable_[case_] == Provable::yes;
 }
@@ -50,7 +54,7 @@ void Search::try_last(const CompiledCase& of, std::span<const Interval> box) {
     part_[v] = Interval::raw(x, x);
   }
   std::copy(last.places.begin(), last.places.end(), places_.begin());
-  try_part(of, Proof::By::unknowns);
+  try_part(of, Proof::By::unknowns, last.proof);
 }
 
 // The middle of a box, and 0 where that is at an end: where all rests, equations are often singular, and hold
@@ -78,15 +82,16 @@ bool Search::try_box(const CompiledCase& of, std::span<const Interval> box, bool
   return try_at(kMiddle, Proof::By::unknowns);
 }
 
-// A point of the search's core in terms of the proof's, and a proof from there.
-bool Search::try_part(const CompiledCase& of, Proof::By by) {
+// A point of the search's core in terms of the proof's, and a proof from there. What the former leaves open
+// is taken to be as in `last`.
+bool Search::try_part(const CompiledCase& of, Proof::By by, std::span<const double> last) {
   machine_.evaluate(of.search, {part_.data(), of.search.core()});
   machine_.evaluate_rest(of.search);
   for (std::size_t v = 0; v < of.candidate.size(); ++v) {
     const Source& source = of.candidate[v];
     const Interval& x = source.is_register ? machine_.value(source.reg) : source.value;
     if (x.is_empty()) return false;
-    candidate_[v] = middle(x);
+    candidate_[v] = !last.empty() && x.contains(last[v]) ? last[v] : middle(x);
   }
   if (!is_provable(of)) return false;
   const std::size_t core = of.proof.core();
@@ -116,8 +121,8 @@ void Search::keep(const CompiledCase& of) {
     last.search[v] = middle(source.is_register ? machine_.value(source.reg) : source.value);
   }
   for (std::size_t v = 0; v < of.proof.core(); ++v) {
-    const Interval& x = machine_.value(of.proof.first() + static_cast<Register>(v));
-    last.places[v] = place_in(proof_domains_[v], middle(x));
+    last.proof[v] = middle(machine_.value(of.proof.first() + static_cast<Register>(v)));
+    last.places[v] = place_in(proof_domains_[v], last.proof[v]);
   }
   last.is_known = true;
 }

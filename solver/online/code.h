@@ -116,11 +116,14 @@ class Code {
   std::vector<Instruction> rest;       ///< what definitions need besides
   std::vector<Instruction> further;    ///< what further wanted expressions need besides all that
   std::vector<Test> tests;
-  std::vector<Test> conditions;  ///< of the prefix alone
-  /// What of the prefix is evaluated for it alone; the first `quick` conditions do not need it. And all that
-  /// it reads of the prefix.
-  std::vector<Instruction> prelude;
-  std::size_t quick = 0;
+  std::vector<Test> conditions;  ///< of the prefix alone, until they are in the prelude
+  /// What of the prefix is evaluated for it alone, in parts, each with the conditions that need no more; and
+  /// all that it reads of the prefix.
+  struct Part {
+    std::vector<Instruction> code;
+    std::vector<Test> conditions;
+  };
+  std::vector<Part> prelude;
   std::vector<Register> reads;
   std::vector<CoreBound> bounds;
   std::vector<Register> nonzero;

@@ -214,10 +214,9 @@ bool Contraction::contract_by_newton() {
       const std::uint32_t equation = equations_[pivoting_.row(l)];
       const double factor = inverse_[k * n + l];
       if (factor == 0.0) continue;
-      const Interval by = Interval::raw(factor, factor);
-      value = up::add(value, up::mul(by, form_values_[equation]));
+      value = up::add(value, up::scale(factor, form_values_[equation]));
       const Interval* slopes = &form_slopes_[equation * code_->core()];
-      for_each_active([&](std::size_t v) { row_[v] = up::add(row_[v], up::mul(by, slopes[v])); });
+      for_each_active([&](std::size_t v) { row_[v] = up::add(row_[v], up::scale(factor, slopes[v])); });
     }
     if (!apply(value, kZero, row_.data(), true)) return out(code_->tests[equations_[pivoting_.row(0)]].name);
   }
@@ -233,11 +232,11 @@ bool Contraction::bound_by_multipliers() {
   Interval value = form_values_[tests];
   for_each_active([&](std::size_t v) { row_[v] = form_slopes_[tests * core + v]; });
   for (std::size_t i = 0; i < tests; ++i) {
-    if (multipliers_[i] == 0.0) continue;
-    const Interval by = Interval::raw(multipliers_[i], multipliers_[i]);
-    value = up::add(value, up::mul(by, form_values_[i]));
+    const double by = multipliers_[i];
+    if (by == 0.0) continue;
+    value = up::add(value, up::scale(by, form_values_[i]));
     for_each_active(
-        [&](std::size_t v) { row_[v] = up::add(row_[v], up::mul(by, form_slopes_[i * core + v])); });
+        [&](std::size_t v) { row_[v] = up::add(row_[v], up::scale(by, form_slopes_[i * core + v])); });
   }
   for_each_active(
       [&](std::size_t v) { value = up::add(value, up::mul(row_[v], up::sub(box_[v], center_[v]))); });

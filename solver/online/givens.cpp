@@ -2,6 +2,7 @@
 #include "solver/online/givens.h"
 
 #include <algorithm>
+#include <functional>
 #include <map>
 #include <tuple>
 
@@ -11,6 +12,8 @@
 namespace hcsp::online {
 
 namespace {
+
+constexpr std::size_t kAll = ~std::size_t{0};
 
 using Key = std::tuple<Register, double, double, bool>;
 Key key_of(const Test& test) { return {test.reg, test.wanted.lo(), test.wanted.hi(), test.strict}; }
@@ -52,6 +55,13 @@ class Needs {
       open.insert(open.end(), {at.a, at.b, at.c});
     }
     return needed;
+  }
+
+  [[nodiscard]] static std::size_t count(const std::vector<std::uint8_t>& needed,
+                                         const std::vector<std::uint8_t>& but) {
+    std::size_t result = 0;
+    for (std::size_t i = 0; i < needed.size(); ++i) result += needed[i] != 0 && but[i] == 0 ? 1 : 0;
+    return result;
   }
 
   [[nodiscard]] std::vector<Instruction> code(const std::vector<std::uint8_t>& needed,
@@ -110,20 +120,78 @@ std::vector<std::uint8_t> needed_by_many(const Needs& needs, const std::vector<C
   return always;
 }
 
-void give_prelude(const Needs& needs, const std::vector<std::uint8_t>& always, Code& code) {
+// In parts, first the conditions that cost least: what refutes a case does mostly.
+void give_prelude(const Needs& needs, const std::vector<std::uint8_t>& always, Code& code,
+                  std::initializer_list<std::size_t> costs) {
   const std::vector<Register> registers = registers_of(code);
-  code.prelude = needs.code(needs.of(registers), always);
-  const auto is_quick = [&](const Test& test) {
-    const auto needed = needs.of({test.reg});
-    return std::ranges::equal(needed, always, [](std::uint8_t a, std::uint8_t b) { return a <= b; });
-  };
-  const auto slow = std::stable_partition(code.conditions.begin(), code.conditions.end(), is_quick);
-  code.quick = static_cast<std::size_t>(slow - code.conditions.begin());
+  std::vector<std::uint8_t> done = always;
+  for (const std::size_t most : costs) {
+    const auto is_dear = [&](const Test& test) { return Needs::count(needs.of({test.reg}), always) > most; };
+    const auto dear =
+        std::stable_partition(code.conditions.begin(), code.conditions.end(), std::not_fn(is_dear));
+    Code::Part& part = code.prelude.emplace_back();
+    part.conditions.assign(code.conditions.begin(), dear);
+    code.conditions.erase(code.conditions.begin(), dear);
+    const auto needed = needs.of(most == kAll ? registers : registers_of(part.conditions));
+    part.code = needs.code(needed, done);
+    for (std::size_t i = 0; i < done.size(); ++i) done[i] |= needed[i];
+    if (part.code.empty() && part.conditions.empty()) code.prelude.pop_back();
+  }
   for (const Register reg : registers) {
     if (reg < code.first()) code.reads.push_back(reg);
   }
   std::ranges::sort(code.reads);
   code.reads.erase(std::unique(code.reads.begin(), code.reads.end()), code.reads.end());
+}
+
+// Takes the conditions out of the searches for which nothing else has to be evaluated.
+std::vector<Filter> take_filters(const Needs& needs, const std::vector<std::uint8_t>& always,
+                                 std::vector<CompiledCase>& cases) {
+  std::map<std::tuple<Key, std::uint32_t, bool>, Filter> filters;
+  const auto is_evaluated = [&](const Test& test) { return Needs::count(needs.of({test.reg}), always) == 0; };
+  for (std::size_t i = 0; i < cases.size(); ++i) {
+    std::erase_if(cases[i].search.conditions, [&](const Test& test) {
+      if (!is_evaluated(test)) return false;
+      Filter none{test, CaseSet(cases.size())};
+      filters.try_emplace({key_of(test), test.name, test.is_of_quotient}, std::move(none))
+          .first->second.cases.insert(i);
+      return true;
+    });
+  }
+  std::vector<Filter> result;
+  for (auto& [key, filter] : filters) result.push_back(std::move(filter));
+  std::ranges::stable_sort(result, std::greater{}, [](const Filter& one) { return one.cases.size(); });
+  return result;
+}
+
+std::vector<Divisor> divisors_of(const std::vector<CompiledCase>& cases) {
+  std::map<Register, CaseSet> divisors;
+  for (std::size_t i = 0; i < cases.size(); ++i) {
+    for (const Register reg : cases[i].search.nonzero)
+      divisors.try_emplace(reg, cases.size()).first->second.insert(i);
+  }
+  std::vector<Divisor> result;
+  for (auto& [reg, own] : divisors) result.push_back({reg, std::move(own)});
+  return result;
+}
+
+// The registers that more than what is always evaluated reads.
+std::set<Register> read_by_others(const Prefix& prefix, const std::vector<std::uint8_t>& always,
+                                  const std::vector<CompiledCase>& cases, const Givens& givens) {
+  std::set<Register> read;
+  const auto add = [&](const std::vector<Register>& registers) {
+    read.insert(registers.begin(), registers.end());
+  };
+  for (std::size_t i = 0; i < always.size(); ++i) {
+    const Instruction& at = prefix.code()[i];
+    if (always[i] == 0) read.insert({at.a, at.b, at.c});
+  }
+  for (const CompiledCase& one : cases) {
+    add(registers_of(one.search));
+    add(registers_of(one.proof));
+  }
+  for (const auto* tests : {&givens.required, &givens.reasons, &givens.certain}) add(registers_of(*tests));
+  return read;
 }
 
 }  // namespace
@@ -138,12 +206,15 @@ Givens share_givens(const Prefix& prefix, std::vector<CompiledCase>& cases) {
   for (const CompiledCase& one : cases)
     first.insert(first.end(), one.search.nonzero.begin(), one.search.nonzero.end());
   const auto always = needed_by_many(needs, cases, needs.of(first));
-  givens.always = needs.code(always, std::vector<std::uint8_t>(always.size()));
+  givens.always = sections_of(needs.code(always, std::vector<std::uint8_t>(always.size())),
+                              read_by_others(prefix, always, cases, givens));
   givens.late = needs.code(needs.of(registers_of(givens.reasons)), always);
   givens.proof = needs.code(needs.of(registers_of(givens.certain)), always);
+  givens.filters = take_filters(needs, always, cases);
+  givens.divisors = divisors_of(cases);
   for (CompiledCase& one : cases) {
-    give_prelude(needs, always, one.search);
-    give_prelude(needs, always, one.proof);
+    give_prelude(needs, always, one.search, {16, 128, kAll});
+    give_prelude(needs, always, one.proof, {kAll});
   }
   return givens;
 }

@@ -84,6 +84,16 @@ void Machine::run(std::span<const Instruction> code) {
   }
 }
 
+void Machine::evaluate(std::span<const Section> givens) {
+  const auto may_be = [&](const Guard& guard) {
+    const Interval& boolean = values_[guard.boolean];
+    return guard.wanted ? !operators::is_false(boolean) : !operators::is_true(boolean);
+  };
+  for (const Section& section : givens) {
+    if (std::ranges::all_of(section.guards, may_be)) run(section.code);
+  }
+}
+
 void Machine::load(const Code& code, std::span<const Interval> box) {
   std::copy(box.begin(), box.end(), values_.begin() + code.first());
   std::fill_n(flags_.begin() + code.first(), box.size(), kDefined | kLipschitz);

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "solver/online/code.h"
+#include "solver/online/sections.h"
 
 namespace hcsp::online {
 
@@ -40,6 +40,7 @@ class Machine {
   void load(std::span<const Interval> parameters);
   /// Evaluates code of the prefix.
   void evaluate(std::span<const Instruction> givens) { run(givens); }
+  void evaluate(std::span<const Section> givens);
 
   /// Evaluates the tests and objectives of a view on a box of its core, as far as a stage.
   void evaluate(const Code& code, std::span<const Interval> box, Code::Stage last = Code::all);

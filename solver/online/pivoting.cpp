@@ -11,6 +11,7 @@ Pivoting::Pivoting(std::size_t most_rows, std::size_t most_columns)
     : matrix_(most_rows * most_columns),
       right_(most_rows),
       solution_(most_rows),
+      scales_(most_rows),
       row_of_(most_rows),
       column_of_(most_columns) {}
 
@@ -28,9 +29,9 @@ bool Pivoting::scale_rows() {
       most = std::max(most, std::abs(at(i, j)));
     }
     if (!std::isfinite(right_[i])) return false;
-    if (most == 0.0) continue;
-    for (std::size_t j = 0; j < columns_; ++j) at(i, j) /= most;
-    right_[i] /= most;
+    scales_[i] = most == 0.0 ? 1.0 : most;
+    for (std::size_t j = 0; j < columns_; ++j) at(i, j) /= scales_[i];
+    right_[i] /= scales_[i];
   }
   return true;
 }
@@ -63,14 +64,24 @@ bool Pivoting::eliminate(double noise) {
     for (std::size_t i = rank_ + 1; i < rows_; ++i) {
       const std::uint32_t row = row_of_[i];
       const double factor = at(row, column) / at(pivot, column);
+      at(row, column) = factor;
       if (factor == 0.0) continue;
-      for (std::size_t j = rank_; j < columns_; ++j)
+      for (std::size_t j = rank_ + 1; j < columns_; ++j)
         at(row, column_of_[j]) -= factor * at(pivot, column_of_[j]);
       right_[row] -= factor * right_[pivot];
     }
   }
   substitute_back();
   return true;
+}
+
+void Pivoting::solve_again() {
+  for (std::size_t i = 0; i < rows_; ++i) right_[i] /= scales_[i];
+  for (std::size_t k = 0; k < rank_; ++k) {
+    for (std::size_t i = k + 1; i < rows_; ++i)
+      right_[row_of_[i]] -= at(row_of_[i], column_of_[k]) * right_[row_of_[k]];
+  }
+  substitute_back();
 }
 
 void Pivoting::substitute_back() {

@@ -22,6 +22,8 @@ class Pivoting {
   /// Eliminates as long as there are pivots above `noise`; false where a number is not finite. Rows are
   /// scaled to their greatest entry first.
   bool eliminate(double noise);
+  /// After eliminate(), other right sides: the same pivots. All of them are to be given.
+  void solve_again();
   /// How many rows and columns were pivoted on, and which.
   [[nodiscard]] std::size_t rank() const { return rank_; }
   [[nodiscard]] std::uint32_t row(std::size_t k) const { return row_of_[k]; }
@@ -35,7 +37,8 @@ class Pivoting {
   void substitute_back();
 
   std::size_t columns_ = 0, rows_ = 0, rank_ = 0;
-  std::vector<double> matrix_, right_, solution_;
+  std::vector<double> matrix_, right_, solution_;  // below the pivots, the factors that eliminated
+  std::vector<double> scales_;                     // by row
   std::vector<std::uint32_t> row_of_, column_of_;  // the first rank() are pivots
 };
 

@@ -24,6 +24,7 @@ Proof::Proof(Machine& machine, std::size_t most_tests, std::size_t most_core)
       point_(most_core),
       changes_(most_core),
       greatest_(most_core),
+      rooms_(most_core),
       is_active_(most_tests),
       is_solved_(most_tests),
       rows_(most_tests),
@@ -95,15 +96,23 @@ bool Proof::fill_matrix(std::uint64_t active) {
   for (std::uint64_t left = active; left != 0; left &= left - 1)
     unknowns_[columns++] = static_cast<std::uint32_t>(__builtin_ctzll(left));
   pivoting_.start(row_count_, columns);
+  for (std::size_t l = 0; l < columns; ++l) rooms_[unknowns_[l]] = room(unknowns_[l]);
   for (std::size_t k = 0; k < row_count_; ++k) {
     const Register reg = code_->tests[rows_[k]].reg;
     for (std::size_t l = 0; l < columns; ++l)
-      pivoting_.at(k, l) = machine_.real_slope(reg, l) * room(unknowns_[l]);
+      pivoting_.at(k, l) = machine_.real_slope(reg, l) * rooms_[unknowns_[l]];
     pivoting_.right(k) = -machine_.real(reg);
   }
   active_ = active;
   constexpr double kNoise = 1e-15, kPlay = 1e-11;  // what data move is less than that of the others
   return pivoting_.eliminate(active == all_ ? kNoise : kPlay);
+}
+
+// The matrix of a step before, at the point at hand.
+void Proof::keep_matrix() {
+  for (std::size_t k = 0; k < row_count_; ++k)
+    pivoting_.right(k) = -machine_.real(code_->tests[rows_[k]].reg);
+  pivoting_.solve_again();
 }
 
 // Whether some row is much nearer to 0 than it ever was: otherwise all that moves is rounding.
@@ -122,7 +131,7 @@ bool Proof::is_closer() {
 double Proof::change_of(std::size_t k) {
   constexpr double kAll = 1.999, kAbout = 0.05;
   const std::uint32_t v = unknowns_[pivoting_.column(k)];
-  const double change = pivoting_.solution(k) * room(v), half = 0.5 * changes_[v];
+  const double change = pivoting_.solution(k) * rooms_[v], half = 0.5 * changes_[v];
   const bool is_halved = std::abs(change - half) < kAbout * std::abs(half);
   changes_[v] = is_halved ? 0.0 : change;
   return is_halved ? kAll * change : change;
@@ -134,22 +143,27 @@ bool Proof::correct() {
   constexpr int kMostSteps = 20;
   constexpr int kMostVain = 2, kAstray = 6;
   constexpr double kSmall = 1e-12;  // next to what data play, or a kink may be on the way
-  constexpr double kNear = 1e-2, kSquare = 1e-7, kMuchSmaller = 1e-3;
+  constexpr double kNear = 1e-2, kStalled = 0.75, kSquare = 1e-7, kMuchSmaller = 1e-3, kMuchLess = 0.1;
   collect_rows();
   std::fill_n(least_.begin(), row_count_, kInfinity);
   std::fill_n(changes_.begin(), size_, 0.0);
   std::fill_n(greatest_.begin(), size_, std::numeric_limits<double>::min());
   int vain = 0;
   double before = kInfinity;
+  bool is_chord = false;  // the slopes are of a step before
   for (int step = 0; step < kMostSteps; ++step) {
     keep_within_domains();
     machine_.evaluate_real(*code_, {point_.data(), size_}, stage_);
     is_exact_ = std::all_of(rows_.begin(), rows_.begin() + static_cast<std::ptrdiff_t>(row_count_),
                             [&](std::uint32_t i) { return machine_.real(code_->tests[i].reg) == 0.0; });
     vain = is_closer() ? 0 : vain + 1;
-    // Data are solved for only where the others do not do.
-    if (!fill_matrix(free_)) return false;
-    if (pivoting_.rank() < row_count_ && !fill_matrix(all_)) return false;
+    if (is_chord) {
+      keep_matrix();
+    } else {
+      // Data are solved for only where the others do not do.
+      if (!fill_matrix(free_)) return false;
+      if (pivoting_.rank() < row_count_ && !fill_matrix(all_)) return false;
+    }
     double most = 0.0, most_of_all = 0.0;
     for (std::size_t k = 0; k < pivoting_.rank(); ++k) {
       const std::uint32_t v = unknowns_[pivoting_.column(k)];
@@ -161,9 +175,12 @@ bool Proof::correct() {
       most_of_all = std::max(most_of_all, std::abs(change) / std::max(size, greatest_[v]));
     }
     if (!(most < kInfinity)) return false;
-    const bool is_square = most < kSquare && most < kMuchSmaller * before;
-    const bool is_vain = vain >= kAstray || (vain >= kMostVain && most < kNear);
+    const bool is_square =
+        is_chord ? most * most < kSquare * kSquare * before : most < kSquare && most < kMuchSmaller * before;
+    const bool is_stalled = vain >= kMostVain || most > kStalled * before;
+    const bool is_vain = vain >= kAstray || (is_stalled && most < kNear);
     if (is_square || most_of_all < kSmall || is_vain) break;
+    is_chord = most < kNear && (!is_chord || most < kMuchLess * before);
     before = most;
   }
   keep_within_domains();
@@ -215,7 +232,7 @@ bool Proof::precondition() {
     Interval sum = Interval::raw(0.0, 0.0);
     for (std::size_t l = 0; l < rank_; ++l) {
       const double factor = inverse_[k * rank_ + l];
-      sum = up::add(sum, up::mul(Interval::raw(factor, factor), residual_[l]));
+      if (factor != 0.0) sum = up::add(sum, up::scale(factor, residual_[l]));
     }
     if (sum.is_empty() || !sum.is_bounded()) return false;
     step_[k] = -sum;
@@ -284,8 +301,7 @@ bool Proof::contract_to_solution() {
       Interval slope = k == l ? Interval::raw(1.0, 1.0) : Interval::raw(0.0, 0.0);
       for (std::size_t m = 0; m < rank_; ++m) {
         const double factor = inverse_[k * rank_ + m];
-        if (factor != 0.0)
-          slope = up::sub(slope, up::mul(Interval::raw(factor, factor), slopes_[m * rank_ + l]));
+        if (factor != 0.0) slope = up::sub(slope, up::scale(factor, slopes_[m * rank_ + l]));
       }
       image = up::add(image, up::mul(slope, up::sub(reach_[columns_[l]], box_[columns_[l]])));
     }

@@ -26,6 +26,7 @@ class Proof {
   [[nodiscard]] double room(std::size_t v) const;
   void collect_rows();
   bool fill_matrix(std::uint64_t active);
+  void keep_matrix();
   bool correct();
   bool is_closer();
   double change_of(std::size_t k);
@@ -54,6 +55,7 @@ class Proof {
   bool is_exact_ = false;                // in floating point all rows are 0
   std::vector<double> point_;
   std::vector<double> changes_, greatest_;  // by unknown: what a step made of it last; how great it was
+  std::vector<double> rooms_;               // by unknown: that the matrix is scaled by
   std::vector<std::uint8_t> is_active_, is_solved_;  // by test
   std::vector<std::uint32_t> rows_;                  // tests that are to be 0
   std::vector<double> least_;                        // by row: how near to 0 it was

@@ -29,29 +29,32 @@ bool Search::is_refuted(std::span<const Test> tests) {
   return is_one;
 }
 
-// Where divisors may be 0 what their quotients say does not count.
-bool Search::is_refuted_by_givens(std::size_t number, bool& is_regular) {
-  const auto refutes = [&](const Test& test) {
-    if (machine_.is_possible(test) || (test.is_of_quotient && !is_regular)) return false;
-    ++refutations_[test.name];
-    return true;
-  };
-  const Code& code = cases_[number].search;
-  const Test& likely = likely_[number];
-  const bool has_likely = code.quick > 0;
-  if (has_likely && !likely.is_of_quotient && refutes(likely)) return true;
-  is_regular = std::none_of(code.nonzero.begin(), code.nonzero.end(),
-                            [&](Register factor) { return machine_.value(factor).contains(0.0); });
-  if (has_likely && likely.is_of_quotient && refutes(likely)) return true;
-  const std::span<const Test> conditions = code.conditions;
-  for (const Test& test : conditions.first(code.quick)) {
-    if (!refutes(test)) continue;
-    likely_[number] = test;
-    return true;
+// Looks once at what several cases have. Where a divisor may be 0 what its quotients say does not count.
+void Search::sift() {
+  left_.fill(cases_.size());
+  irregular_.fill(0);
+  for (const Divisor& divisor : givens_.divisors) {
+    if (machine_.value(divisor.reg).contains(0.0)) irregular_.insert(divisor.cases);
   }
-  machine_.evaluate(code.prelude);
-  const auto late = conditions.subspan(code.quick);
-  return std::any_of(late.begin(), late.end(), refutes);
+  for (const Filter& filter : givens_.filters) {
+    if (!left_.meets(filter.cases) || machine_.is_possible(filter.test)) continue;
+    const CaseSet& safe = filter.test.is_of_quotient ? irregular_ : none_;
+    refutations_[filter.test.name] += left_.remove(filter.cases, safe);
+  }
+}
+
+// Evaluates what a case alone needs, unless a condition of that holds nowhere.
+bool Search::is_refuted_by_prelude(std::size_t number) {
+  const bool is_regular = !irregular_.contains(number);
+  for (const Code::Part& part : cases_[number].search.prelude) {
+    machine_.evaluate(part.code);
+    for (const Test& test : part.conditions) {
+      if ((test.is_of_quotient && !is_regular) || machine_.is_possible(test)) continue;
+      ++refutations_[test.name];
+      return true;
+    }
+  }
+  return false;
 }
 
 }  // namespace hcsp::online

@@ -56,6 +56,9 @@ Search::Search(Machine& machine, const std::vector<CompiledCase>& cases, const G
       order_(cases.size()),
       refutations_(is_decisive.size()),
       last_(cases.size()),
+      left_(cases.size()),
+      irregular_(cases.size()),
+      none_(cases.size()),
       provable_(cases.size()),
       fronts_(cases.size()),
       domains_(most_core(cases)),
@@ -68,11 +71,9 @@ Search::Search(Machine& machine, const std::vector<CompiledCase>& cases, const G
   std::iota(order_.begin(), order_.end(), std::size_t{0});
   for (std::size_t i = 0; i < cases.size(); ++i) {
     last_[i].search.resize(cases[i].search.core());
+    last_[i].proof.resize(cases[i].proof.core());
     last_[i].places.resize(cases[i].proof.core());
     sizes_.emplace_back(cases[i].search.core());
-    const Code& code = cases[i].search;
-    likely_.push_back(code.quick > 0 ? code.conditions[0]
-                                     : Test{0, Interval::entire(), false, false, false, false, 0});
   }
 }
 
@@ -92,8 +93,11 @@ const Finding& Search::run() {
     return finding_;
   }
   waiting_.clear();
+  sift();
   // Of boxes of which nothing is known yet the last that came is the first to be looked at.
-  for (std::size_t i = order_.size(); i-- > 0;) open(order_[i]);
+  for (std::size_t i = order_.size(); i-- > 0;) {
+    if (left_.contains(order_[i])) open(order_[i]);
+  }
   // Where no case is what it was, there may be no solution any more.
   const bool is_familiar = !waiting_.empty() && last_[waiting_.owner()].is_known;
   if (!is_familiar && is_out_of_reason()) return finding_;
@@ -118,14 +122,13 @@ bool Search::is_good_enough(double lower) const {
   return finding_.is_found && lower >= finding_.best.hi() - limits_.precision;
 }
 
-// Lets a case's domains wait, unless parameters refute it.
+// Lets the domains of a case that is left wait, unless parameters refute it.
 void Search::open(std::size_t number) {
   const CompiledCase& of = cases_[number];
   const Code& code = of.search;
-  bool is_regular = true;  // no divisor may be 0
-  if (is_refuted_by_givens(number, is_regular)) return;
+  if (is_refuted_by_prelude(number)) return;
   case_ = number;
-  if (!is_regular || !waiting_.has_room_for(1)) {
+  if (irregular_.contains(number) || !waiting_.has_room_for(1)) {
     finding_.is_exhausted = true;  // nothing is known of what is defined by a division by 0
     finding_.lower = -kInfinity;
     return;

@@ -70,14 +70,15 @@ class Search {
   void explore();
   void look_at(std::span<Interval> box);
   bool is_refuted(std::span<const Test> tests);
-  bool is_refuted_by_givens(std::size_t number, bool& is_regular);
+  void sift();
+  bool is_refuted_by_prelude(std::size_t number);
   bool is_out_of_reason();
   bool is_provable(const CompiledCase& of);
   bool find_domains(const Code& code, std::span<const Interval> declared, bool is_inner,
                     std::span<Interval> domains);
   void try_last(const CompiledCase& of, std::span<const Interval> box);
   bool try_box(const CompiledCase& of, std::span<const Interval> box, bool is_leaf);
-  bool try_part(const CompiledCase& of, Proof::By by);
+  bool try_part(const CompiledCase& of, Proof::By by, std::span<const double> last = {});
   void keep(const CompiledCase& of);
   std::uint64_t first_to_cut(const Code& code, std::span<const Interval> box);
   void split(const Code& code, std::span<const Interval> box, double lower);
@@ -101,11 +102,11 @@ class Search {
   std::vector<std::uint32_t> refutations_;  // by name
   struct Last {
     bool is_known = false;
-    std::vector<double> search;  // a point of its core
-    std::vector<double> places;  // of data within their play, by unknown of the proof's core
+    std::vector<double> search, proof;  // a point of its core
+    std::vector<double> places;         // of data within their play, by unknown of the proof's core
   };
-  std::vector<Last> last_;    // by case
-  std::vector<Test> likely_;  // by case: a quick condition, the one that refuted it last
+  std::vector<Last> last_;           // by case
+  CaseSet left_, irregular_, none_;  // irregular: with a divisor that may be 0
   enum class Provable : std::uint8_t { unknown, no, yes };
   Provable is_any_provable_ = Provable::unknown;
   std::vector<Provable> provable_;  // by case

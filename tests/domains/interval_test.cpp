@@ -157,6 +157,18 @@ TEST(Interval, TheEmptySetGivesTheEmptySet) {
   }
 }
 
+TEST(Interval, ScalingIsTheProductByAPoint) {
+  Dice dice;
+  const RoundUpward guard;
+  for (int i = 0; i < 100000; ++i) {
+    const Interval a = dice.interval();
+    const double factor = dice.in(dice.interval());
+    if (factor == 0.0 || !std::isfinite(factor)) continue;
+    ASSERT_EQ(up::scale(factor, a), up::mul(Interval::raw(factor, factor), a)) << factor << " " << told(a, a);
+  }
+  EXPECT_TRUE(up::scale(-2.0, Interval::empty()).is_empty());
+}
+
 TEST(Interval, ReverseOperationsKeepEverySolution) {
   Dice dice;
   for (int i = 0; i < 100000; ++i) {

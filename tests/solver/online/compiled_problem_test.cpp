@@ -117,6 +117,38 @@ TEST(CompiledProblem, AgreesWithMinimizeWhereParametersDecide) {
   compare_with_minimize(by_parameters, 60, 4);
 }
 
+double sqr(double x) { return x * x; }
+double abs(double x) { return std::abs(x); }
+
+// A long expression, so that it is left out where another one is taken.
+template <class Number>
+Number long_chain(Number x, Number by, Number one) {
+  Number y = x;
+  for (int i = 0; i < 60; ++i) y = (y * by + x) / (one + abs(y) + sqr(by));
+  return y;
+}
+
+TEST(CompiledProblem, TakesAlternativesInTurn) {
+  Posed posed({1.0, 1.0, 1.0});
+  const Expr one = posed.number(1.0), zero = posed.number(0.0);
+  const auto& [a, b, x] = std::tie(posed.given[0], posed.given[1], posed.given[2]);
+  const Expr inner = if_then_else(b > zero, long_chain(x + one, b, one), long_chain(x, -a, one) / b);
+  const Expr y = posed.real("y");
+  posed.problem->constrain("either", y == if_then_else(a > zero, inner, long_chain(x, a - b, one)));
+  CompiledProblem compiled = compile(*posed.problem, y);
+  for (const auto& [p, q, at] : std::vector<std::array<double, 3>>{
+           {1, 2, 0.5}, {-1, 2, 0.5}, {2, -3, 0.25}, {-1, -2, 0.75}, {1, 2, 0.5}, {-2, 0, 1}, {1, -1, 0.5}}) {
+    compiled.set(compiled.parameter("p0"), p);
+    compiled.set(compiled.parameter("p1"), q);
+    compiled.set(compiled.parameter("p2"), at);
+    ASSERT_EQ(compiled.solve(), OnlineStatus::solved) << p << " " << q;
+    const double wanted = !(p > 0)  ? long_chain(at, p - q, 1.0)
+                          : q > 0.0 ? long_chain(at + 1.0, q, 1.0)
+                                    : long_chain(at, -p, 1.0) / q;
+    EXPECT_NEAR(compiled.objective().mid(), wanted, 1e-12) << p << " " << q;
+  }
+}
+
 TEST(CompiledProblem, FindsOneSolutionWithoutAnObjective) {
   Posed posed = two_curves({1.0, 0.0, 0.0});
   OnlineOptions options;
