@@ -55,12 +55,7 @@ PolynomialTube::PolynomialTube(std::vector<Interval> durations, std::vector<Inte
     starts_.push_back(all_.size());
     add(component.gates);
   }
-  find_emptiness();
-}
-
-void PolynomialTube::find_emptiness() {
-  for (std::size_t i = 0; i < phases_; ++i) all_[i] = meet(all_[i], Interval(0.0, kInfinity));
-  is_empty_ = std::any_of(all_.begin(), all_.end(), [](const Interval& x) { return x.is_empty(); });
+  assign([&](std::size_t i) { return all_[i]; });
 }
 
 std::size_t PolynomialTube::degree() const {

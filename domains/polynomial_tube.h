@@ -28,8 +28,14 @@ class PolynomialTube {
   /// component by component the coefficients phase by phase and the gates. Allocates nothing.
   template <class ValueOf>
   void assign(ValueOf value_of) {
-    for (std::size_t i = 0; i < all_.size(); ++i) all_[i] = value_of(i);
-    find_emptiness();
+    bool is_empty = false;
+    const auto put = [&, all = all_.data()](std::size_t i, const Interval& value) {
+      all[i] = value;
+      is_empty |= value.is_empty();
+    };
+    for (std::size_t i = 0; i < phases_; ++i) put(i, meet(value_of(i), Interval::raw(0.0, kInfinity)));
+    for (std::size_t i = phases_, size = all_.size(); i < size; ++i) put(i, value_of(i));
+    is_empty_ = is_empty;
   }
 
   [[nodiscard]] std::size_t dim() const { return starts_.size() / (phases_ + 1); }
@@ -55,7 +61,6 @@ class PolynomialTube {
 
  private:
   friend PolynomialTube bottom(PolynomialTube tube);
-  void find_emptiness();
   [[nodiscard]] Interval values(std::size_t c, std::size_t phase, const Interval& local_times) const;
 
   std::size_t phases_;

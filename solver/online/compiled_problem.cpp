@@ -118,10 +118,10 @@ void CompiledProblem::Impl::read_solution(const online::Finding& finding) {
     values[v] = source.is_register ? machine.value(source.reg) : source.value;
   }
   const std::size_t first = compiled.has_objective ? 1 : 0;
-  const auto wanted_value = [&](std::size_t i) { return machine.value(of.proof.wanted[i]); };
-  for (std::size_t i = 0; i < outputs.size(); ++i) outputs[i] = wanted_value(first + i);
+  const std::span<const online::Register> wanted = of.proof.wanted;
+  for (std::size_t i = 0; i < outputs.size(); ++i) outputs[i] = machine.value(wanted[first + i]);
   for (online::WantedTube& own : compiled.tubes)
-    own.tube.assign([&](std::size_t i) { return wanted_value(own.first + i); });
+    own.tube.assign([&, from = wanted.subspan(own.first)](std::size_t i) { return machine.value(from[i]); });
 }
 
 CompiledProblem::CompiledProblem(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}

@@ -155,6 +155,10 @@ void Machine::apply(const ChainRule& rule) {
   const auto slope_in = [&](Register reg) {
     return values_[reg].is_empty() ? Interval::entire() : values_[reg];
   };
+  // Of what does not depend on an unknown there is nothing to multiply.
+  const auto product = [](const Interval& slope, const Interval& of) {
+    return both(of.bounds() == 0.0) ? of : up::mul(slope, of);
+  };
   switch (kKind) {
     case Kind::copy:
       return set([&](std::size_t k) { return a[k]; });
@@ -177,15 +181,15 @@ void Machine::apply(const ChainRule& rule) {
     case Kind::root: {
       const bool is_known = va.lo() >= 0.0 && va.hi() > 0.0;
       const Interval slope = is_known ? values_[rule.sa] : Interval::raw(0.0, kInfinity);
-      return set([&](std::size_t k) { return up::mul(slope, a[k]); });
+      return set([&](std::size_t k) { return product(slope, a[k]); });
     }
     case Kind::scale: {
       const Interval slope = slope_in(rule.sa);
-      return set([&](std::size_t k) { return up::mul(slope, a[k]); });
+      return set([&](std::size_t k) { return product(slope, a[k]); });
     }
     case Kind::scale_both: {
       const Interval by_a = slope_in(rule.sa), by_b = slope_in(rule.sb);
-      return set([&](std::size_t k) { return up::add(up::mul(by_a, a[k]), up::mul(by_b, b[k])); });
+      return set([&](std::size_t k) { return up::add(product(by_a, a[k]), product(by_b, b[k])); });
     }
   }
 }
@@ -223,12 +227,13 @@ void Machine::differentiate(const Code& code, std::uint64_t active, Code::Stage 
 bool Machine::narrow(const Code& code, Register reg, const Interval& value) {
   const Interval met = meet(values_[reg], value);
   if (reg >= code.first()) {
+    needed_[reg] = std::max(needed_[reg], met == values_[reg] ? Need::value : Need::narrower);
     values_[reg] = met;
-    needed_[reg] = 1;
   }
   return !met.is_empty();
 }
 
+// What is as wide as it was computed tells nothing of its operands but that they are where it has a value.
 template <Op kOp, class Operator>
 bool Machine::revise_one(const Code& code, const Instruction& at) {
   if constexpr (kOp == Op::if_then_else) {
@@ -238,13 +243,19 @@ bool Machine::revise_one(const Code& code, const Instruction& at) {
     return narrow(code, is_then ? at.b : at.c, values_[at.y]);
   } else {
     Interval a = values_[at.a], b = values_[at.b], c = values_[at.c];
+    bool is_everywhere = true;
+    if constexpr (!operators::is_total<Operator>) is_everywhere = Operator::defined(a, b, c);
+    if (needed_[at.y] == Need::value && is_everywhere) {
+      for (const Register operand : {at.a, at.b}) needed_[operand] = std::max(needed_[operand], Need::value);
+      return true;
+    }
     Operator::backward(values_[at.y], a, b, c);
     return narrow(code, at.a, a) && (at.arity < 2 || narrow(code, at.b, b));
   }
 }
 
 bool Machine::backward(const Code& code, double best) {
-  for (const Instruction& at : code.real_path) needed_[at.y] = 0;
+  for (const Instruction& at : code.real_path) needed_[at.y] = Need::none;
   for (const Test& test : code.tests) {
     refuted_by_ = test.name;
     if (!narrow(code, test.reg, test.wanted)) return false;
@@ -254,7 +265,7 @@ bool Machine::backward(const Code& code, double best) {
   for (const Instruction *at = path.data(), *end = at + path.size(); at != end;) {
     const bool alive = with_operator(at->op, [&](auto known) {
       do {
-        if (needed_[at->y] != 0 &&
+        if (needed_[at->y] != Need::none &&
             !revise_one<decltype(known)::op, typename decltype(known)::type>(code, *at))
           return false;
       } while (++at != end && at->op == decltype(known)::op);

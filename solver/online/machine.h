@@ -100,6 +100,8 @@ class Machine {
 
  private:
   static constexpr std::uint8_t kDefined = 1, kLipschitz = 2;
+  /// What a solution needs of a register: that it has a value, or one in less than what was computed.
+  enum class Need : std::uint8_t { none, value, narrower };
 
   // Rows of derivatives: of a prefix's register, zeros.
   [[nodiscard]] const Interval* slopes_of(Register reg) const {
@@ -132,7 +134,8 @@ class Machine {
   Register first_;  // own register
   std::size_t columns_ = 0, real_columns_ = 0;
   std::vector<Interval> values_, slopes_, kept_;
-  std::vector<std::uint8_t> flags_, needed_;
+  std::vector<std::uint8_t> flags_;
+  std::vector<Need> needed_;
   std::vector<double> reals_, real_slopes_;
   std::vector<Side> sides_;  // by surface
   std::uint32_t refuted_by_ = 0;

@@ -137,12 +137,13 @@ double Proof::change_of(std::size_t k) {
   return is_halved ? kAll * change : change;
 }
 
-// Newton's method in floating point. Where a step is small, next to all that an unknown was on the way, the
-// next would be far smaller.
+// Newton's method in floating point. Where a step is small, next to all that an unknown was on the way of
+// late, the next would be far smaller.
 bool Proof::correct() {
   constexpr int kMostSteps = 20;
   constexpr int kMostVain = 2, kAstray = 6;
   constexpr double kSmall = 1e-12;  // next to what data play, or a kink may be on the way
+  constexpr double kFades = 1e-4;
   constexpr double kNear = 1e-2, kStalled = 0.75, kSquare = 1e-7, kMuchSmaller = 1e-3, kMuchLess = 0.1;
   collect_rows();
   std::fill_n(least_.begin(), row_count_, kInfinity);
@@ -168,7 +169,7 @@ bool Proof::correct() {
     for (std::size_t k = 0; k < pivoting_.rank(); ++k) {
       const std::uint32_t v = unknowns_[pivoting_.column(k)];
       const double change = change_of(k);
-      greatest_[v] = std::max(greatest_[v], std::abs(point_[v]));
+      greatest_[v] = std::max(kFades * greatest_[v], std::abs(point_[v]));
       point_[v] += change;
       const double size = std::max(std::abs(point_[v]), std::numeric_limits<double>::min());
       most = std::max(most, std::abs(change) / size);
