@@ -122,7 +122,7 @@ std::string segments_csv(const Result& result) {
   NumberTexts texts;
   const auto put_cell = [&](double value) {
     put(out, ',');
-    put(out, texts.of(value));
+    put(out, texts.of(value + 0.0));  // -0 is 0
   };
   const PolynomialTube& first = *motions.front().tube;
   for (std::size_t segment = 0; segment < first.phases(); ++segment) {

@@ -233,6 +233,26 @@ TEST_F(Tool, PrintsPages) {
   EXPECT_THAT(run("--explain E101").text, testing::StartsWith("E101: "));
 }
 
+TEST_F(Tool, PlansStraightLines) {
+  const std::string folder = (std::filesystem::path(HCSP_SOURCE_DIR) / "models" / "straight_line").string();
+  const Finished plan = run(folder + "/type3.hcsp --set K=2 --set 'p1=(1,1)' --set 'vmax=(1,10)' " +
+                            "--set 'amax=(50,50)' --set 'jmax=(1000,20)' -o plan.csv -o plan.json");
+  EXPECT_EQ(plan.status, 0);
+  EXPECT_THAT(plan.text, HasSubstr("objective in [1.44721359549"));
+  const std::string csv = text_of("plan.csv");
+  EXPECT_THAT(csv, testing::StartsWith("segment,joint,start,end,p0,p1,p2,p3,v0,v1,v2,a0,a1,j0,start.lo"));
+  EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 1 + 10 * 2);
+  EXPECT_THAT(csv, testing::Not(HasSubstr(",-0,")));
+  const auto json = nlohmann::json::parse(text_of("plan.json"));
+  EXPECT_EQ(json["status"], "solved");
+  EXPECT_EQ(json["segments"].size(), 10U * 2U);
+  const Finished crooked = run(folder + "/type3.hcsp --set 'v0=(0.5,0.5,0.5)'");
+  EXPECT_THAT(crooked.text, HasSubstr("refuted by `d_v0[1, 2]`"));
+  const Finished beyond = run(folder + "/type5.hcsp --set 'v1=(1.2,2.4,0.6)'");
+  EXPECT_THAT(beyond.text, HasSubstr("refuted by `target`"));
+  EXPECT_EQ(run(folder + "/type3.hcsp --set 'vmax=(1,1)'").status, 1) << "of another size";
+}
+
 TEST_F(Tool, ReadsATruth) {
   std::ofstream(folder_ / "truth.csv") << "t,x\n0,0\n1,1\n";
   std::ofstream(folder_ / "bad.csv") << "t,x\n0,zero\n";
