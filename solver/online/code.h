@@ -116,7 +116,7 @@ class Code {
   std::vector<Instruction> rest;       ///< what definitions need besides
   std::vector<Instruction> further;    ///< what further wanted expressions need besides all that
   std::vector<Test> tests;
-  std::vector<Test> conditions;  ///< of the prefix alone, until they are in the prelude
+  std::vector<Test> conditions;  ///< of the prefix alone; share_givens() puts them where they are tested
   /// What of the prefix is evaluated for it alone, in parts, each with the conditions that need no more; and
   /// all that it reads of the prefix.
   struct Part {

@@ -64,12 +64,19 @@ class Needs {
     return result;
   }
 
-  [[nodiscard]] std::vector<Instruction> code(const std::vector<std::uint8_t>& needed,
-                                              const std::vector<std::uint8_t>& but) const {
+  /// Those that are needed, in the order of the prefix.
+  [[nodiscard]] std::vector<Instruction> select(const std::vector<std::uint8_t>& needed,
+                                                const std::vector<std::uint8_t>& but = {}) const {
     std::vector<Instruction> result;
     for (std::size_t i = 0; i < needed.size(); ++i) {
-      if (needed[i] != 0 && but[i] == 0) result.push_back(prefix_.code()[i]);
+      if (needed[i] != 0 && (but.empty() || but[i] == 0)) result.push_back(prefix_.code()[i]);
     }
+    return result;
+  }
+  /// In a good order.
+  [[nodiscard]] std::vector<Instruction> code(const std::vector<std::uint8_t>& needed,
+                                              const std::vector<std::uint8_t>& but) const {
+    std::vector<Instruction> result = select(needed, but);
     reorder(result, 0, [](const Instruction& at) { return at.op; });
     return result;
   }
@@ -152,8 +159,8 @@ std::vector<Filter> take_filters(const Needs& needs, const std::vector<std::uint
   for (std::size_t i = 0; i < cases.size(); ++i) {
     std::erase_if(cases[i].search.conditions, [&](const Test& test) {
       if (!is_evaluated(test)) return false;
-      Filter none{test, CaseSet(cases.size())};
-      filters.try_emplace({key_of(test), test.name, test.is_of_quotient}, std::move(none))
+      Filter filter{test, CaseSet(cases.size())};
+      filters.try_emplace({key_of(test), test.name, test.is_of_quotient}, std::move(filter))
           .first->second.cases.insert(i);
       return true;
     });
@@ -206,14 +213,13 @@ Givens share_givens(const Prefix& prefix, std::vector<CompiledCase>& cases) {
   for (const CompiledCase& one : cases)
     first.insert(first.end(), one.search.nonzero.begin(), one.search.nonzero.end());
   const auto always = needed_by_many(needs, cases, needs.of(first));
-  givens.always = sections_of(needs.code(always, std::vector<std::uint8_t>(always.size())),
-                              read_by_others(prefix, always, cases, givens));
+  givens.always = sections_of(needs.select(always), read_by_others(prefix, always, cases, givens));
   givens.late = needs.code(needs.of(registers_of(givens.reasons)), always);
   givens.proof = needs.code(needs.of(registers_of(givens.certain)), always);
   givens.filters = take_filters(needs, always, cases);
   givens.divisors = divisors_of(cases);
   for (CompiledCase& one : cases) {
-    give_prelude(needs, always, one.search, {16, 128, kAll});
+    give_prelude(needs, always, one.search, {8, 32, 128, kAll});
     give_prelude(needs, always, one.proof, {kAll});
   }
   return givens;

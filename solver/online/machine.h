@@ -40,6 +40,7 @@ class Machine {
   void load(std::span<const Interval> parameters);
   /// Evaluates code of the prefix.
   void evaluate(std::span<const Instruction> givens) { run(givens); }
+  /// The same, but for sections whose guards tell that nothing reads them.
   void evaluate(std::span<const Section> givens);
 
   /// Evaluates the tests and objectives of a view on a box of its core, as far as a stage.

@@ -169,6 +169,7 @@ bool Proof::correct() {
     for (std::size_t k = 0; k < pivoting_.rank(); ++k) {
       const std::uint32_t v = unknowns_[pivoting_.column(k)];
       const double change = change_of(k);
+      if (!std::isfinite(change)) return false;
       greatest_[v] = std::max(kFades * greatest_[v], std::abs(point_[v]));
       point_[v] += change;
       const double size = std::max(std::abs(point_[v]), std::numeric_limits<double>::min());

@@ -11,12 +11,11 @@ namespace hcsp::online {
 
 namespace {
 
-constexpr std::size_t kMany = 128;  // steps: less is not worth a section of its own
+constexpr std::size_t kMany = 128;  // steps that wait for a guard: for less it is not worth a look
 
 class Sectioner {
  public:
   Sectioner(std::vector<Instruction> code, const std::set<Register>& is_read) : code_(std::move(code)) {
-    std::ranges::sort(code_, {}, &Instruction::y);  // operands come first
     for (std::size_t i = 0; i < code_.size(); ++i) producer_[code_[i].y] = i;
     find_guards(is_read);
     choose_guards();

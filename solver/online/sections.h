@@ -21,8 +21,8 @@ struct Section {
   std::vector<Instruction> code;
 };
 
-/// The same code, of which other code reads the registers in `is_read` only. Choices are only guards where
-/// many steps depend on them.
+/// The same code, operands before what they are of, of which other code reads the registers in `is_read`
+/// only. Choices are only guards where many steps depend on them.
 std::vector<Section> sections_of(std::vector<Instruction> code, const std::set<Register>& is_read);
 
 }  // namespace hcsp::online
