@@ -32,7 +32,6 @@ struct CompiledProblem::Impl {
   std::vector<std::uint8_t> is_set;      // by parameter
   std::vector<Interval> values;          // by variable of the problem
   std::vector<Interval> outputs;         // of the options
-  double gap;  // of the bracket: at most half of the digits that are asked for are missing
   OnlineStatus status = OnlineStatus::undecided;
   Interval objective = Interval::empty();
   std::string_view reason;
@@ -47,8 +46,7 @@ struct CompiledProblem::Impl {
         is_invalid(parameters.size()),
         is_set(parameters.size()),
         values(compiled.variables),
-        outputs(options.outputs.size()),
-        gap(std::sqrt(options.precision)) {}
+        outputs(options.outputs.size()) {}
 
   template <class Number>
   bool set(Parameter parameter, std::span<const Number> given);
@@ -99,8 +97,7 @@ void CompiledProblem::Impl::solve() {
     read_solution(finding);
   }
   const bool is_refuted = !is_found && !finding.is_exhausted && finding.lower == kInfinity;
-  const bool is_bracketed =
-      !compiled.has_objective || objective.width() <= gap * std::max(1.0, std::abs(objective.hi()));
+  const bool is_bracketed = !compiled.has_objective || search.limits().is_known_well(objective);
   const bool is_of_all = finding.is_decided || !compiled.has_family;
   status = is_refuted && is_of_all    ? OnlineStatus::infeasible
            : is_found && is_bracketed ? OnlineStatus::solved

@@ -194,16 +194,26 @@ bool Search::is_worth_trying(bool is_last) {
   return true;
 }
 
+// The rest of the digits is worth less: near the end of a motion they may be out of reach.
+bool Search::has_looked_enough() const {
+  constexpr std::size_t kFifth = 5;
+  if (boxes_ >= limits_.boxes) return true;
+  if (!finding_.is_found || boxes_ < limits_.boxes / kFifth) return false;
+  const double lower = std::min(finding_.lower, waiting_.lower());
+  return limits_.is_known_well(Interval::raw(std::min(lower, finding_.best.hi()), finding_.best.hi()));
+}
+
 void Search::explore() {
   if (waiting_.empty()) return;
   case_ = waiting_.owner();
   if (last_[case_].is_known) try_last(cases_[case_], waiting_.box().first(cases_[case_].search.core()));
   while (!waiting_.empty() && !(finding_.is_found && !has_objective_)) {
-    if (++boxes_ > limits_.boxes) {
+    if (has_looked_enough()) {
       finding_.is_exhausted = true;
       finding_.lower = std::min(finding_.lower, has_objective_ ? waiting_.lower() : 0.0);
       return;
     }
+    ++boxes_;
     case_ = waiting_.owner();
     const std::span<Interval> box{box_.data(), cases_[case_].search.core()};
     waiting_.pop(box);

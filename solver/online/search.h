@@ -4,6 +4,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 
 #include "solver/online/contraction.h"
 #include "solver/online/givens.h"
@@ -37,8 +38,13 @@ std::size_t most(const std::vector<CompiledCase>& cases, SizeOf size_of) {
 }
 
 struct Limits {
-  std::size_t boxes;  ///< that one solve looks at
+  std::size_t boxes;  ///< that one solve looks at; a fifth of them where the objective is known well
   double precision;   ///< what cannot better the objective by more than this is left
+
+  /// Whether an objective is known to half of the digits that are asked for.
+  [[nodiscard]] bool is_known_well(const Interval& objective) const {
+    return objective.width() <= std::sqrt(precision) * std::max(1.0, std::abs(objective.hi()));
+  }
 };
 
 /// What is known of a problem after a solve.
@@ -61,6 +67,7 @@ class Search {
   /// What was found, if anything: the machine keeps it, the registers of the proof of that case.
   /// PRECONDITION: the parameters are in the machine, and the thread rounds upward.
   const Finding& run();
+  [[nodiscard]] const Limits& limits() const { return limits_; }
   [[nodiscard]] std::size_t boxes() const { return boxes_; }
   /// Forgets where the last solutions were.
   void forget();
@@ -87,6 +94,7 @@ class Search {
   [[nodiscard]] bool is_leaf(std::span<const Interval> box);
   [[nodiscard]] double cut_off() const;
   [[nodiscard]] bool is_good_enough(double lower) const;
+  [[nodiscard]] bool has_looked_enough() const;
 
   Machine& machine_;
   Contraction contraction_;
