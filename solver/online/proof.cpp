@@ -137,13 +137,39 @@ double Proof::change_of(std::size_t k) {
   return is_halved ? kAll * change : change;
 }
 
+// A step's change of each unknown; data are solved for only where the others do not do. False without one.
+bool Proof::find_step(bool is_chord) {
+  if (is_chord) {
+    keep_matrix();
+    return true;
+  }
+  return fill_matrix(free_) && (pivoting_.rank() == row_count_ || fill_matrix(all_));
+}
+
+// Makes it: how much it changes, relatively, next to what an unknown is and next to what it was of late. Not
+// finite where a change is not.
+Proof::Step Proof::take_step() {
+  constexpr double kFades = 1e-4;
+  Step step{0.0, 0.0};
+  for (std::size_t k = 0; k < pivoting_.rank(); ++k) {
+    const std::uint32_t v = unknowns_[pivoting_.column(k)];
+    const double change = change_of(k);
+    if (!std::isfinite(change)) return {kInfinity, kInfinity};
+    greatest_[v] = std::max(kFades * greatest_[v], std::abs(point_[v]));
+    point_[v] += change;
+    const double size = std::max(std::abs(point_[v]), std::numeric_limits<double>::min());
+    step.now = std::max(step.now, std::abs(change) / size);
+    step.of_late = std::max(step.of_late, std::abs(change) / std::max(size, greatest_[v]));
+  }
+  return step;
+}
+
 // Newton's method in floating point. Where a step is small, next to all that an unknown was on the way of
-// late, the next would be far smaller.
+// late, the next would be far smaller. Near the solution the slopes of a step before do.
 bool Proof::correct() {
   constexpr int kMostSteps = 20;
   constexpr int kMostVain = 2, kAstray = 6;
   constexpr double kSmall = 1e-12;  // next to what data play, or a kink may be on the way
-  constexpr double kFades = 1e-4;
   constexpr double kNear = 1e-2, kStalled = 0.75, kSquare = 1e-7, kMuchSmaller = 1e-3, kMuchLess = 0.1;
   collect_rows();
   std::fill_n(least_.begin(), row_count_, kInfinity);
@@ -151,39 +177,23 @@ bool Proof::correct() {
   std::fill_n(greatest_.begin(), size_, std::numeric_limits<double>::min());
   int vain = 0;
   double before = kInfinity;
-  bool is_chord = false;  // the slopes are of a step before
-  for (int step = 0; step < kMostSteps; ++step) {
+  bool is_chord = false;
+  for (int i = 0; i < kMostSteps; ++i) {
     keep_within_domains();
     machine_.evaluate_real(*code_, {point_.data(), size_}, stage_);
     is_exact_ = std::all_of(rows_.begin(), rows_.begin() + static_cast<std::ptrdiff_t>(row_count_),
-                            [&](std::uint32_t i) { return machine_.real(code_->tests[i].reg) == 0.0; });
+                            [&](std::uint32_t row) { return machine_.real(code_->tests[row].reg) == 0.0; });
     vain = is_closer() ? 0 : vain + 1;
-    if (is_chord) {
-      keep_matrix();
-    } else {
-      // Data are solved for only where the others do not do.
-      if (!fill_matrix(free_)) return false;
-      if (pivoting_.rank() < row_count_ && !fill_matrix(all_)) return false;
-    }
-    double most = 0.0, most_of_all = 0.0;
-    for (std::size_t k = 0; k < pivoting_.rank(); ++k) {
-      const std::uint32_t v = unknowns_[pivoting_.column(k)];
-      const double change = change_of(k);
-      if (!std::isfinite(change)) return false;
-      greatest_[v] = std::max(kFades * greatest_[v], std::abs(point_[v]));
-      point_[v] += change;
-      const double size = std::max(std::abs(point_[v]), std::numeric_limits<double>::min());
-      most = std::max(most, std::abs(change) / size);
-      most_of_all = std::max(most_of_all, std::abs(change) / std::max(size, greatest_[v]));
-    }
-    if (!(most < kInfinity)) return false;
-    const bool is_square =
-        is_chord ? most * most < kSquare * kSquare * before : most < kSquare && most < kMuchSmaller * before;
-    const bool is_stalled = vain >= kMostVain || most > kStalled * before;
-    const bool is_vain = vain >= kAstray || (is_stalled && most < kNear);
-    if (is_square || most_of_all < kSmall || is_vain) break;
-    is_chord = most < kNear && (!is_chord || most < kMuchLess * before);
-    before = most;
+    if (!find_step(is_chord)) return false;
+    const Step step = take_step();
+    if (!(step.now < kInfinity)) return false;
+    const bool is_square = is_chord ? step.now * step.now < kSquare * kSquare * before
+                                    : step.now < kSquare && step.now < kMuchSmaller * before;
+    const bool is_stalled = vain >= kMostVain || step.now > kStalled * before;
+    const bool is_vain = vain >= kAstray || (is_stalled && step.now < kNear);
+    if (is_square || step.of_late < kSmall || is_vain) break;
+    is_chord = step.now < kNear && (!is_chord || step.now < kMuchLess * before);
+    before = step.now;
   }
   keep_within_domains();
   return true;

@@ -27,6 +27,11 @@ class Proof {
   void collect_rows();
   bool fill_matrix(std::uint64_t active);
   void keep_matrix();
+  struct Step {
+    double now, of_late;
+  };
+  bool find_step(bool is_chord);
+  Step take_step();
   bool correct();
   bool is_closer();
   double change_of(std::size_t k);
