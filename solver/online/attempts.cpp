@@ -45,11 +45,15 @@ bool Search::is_provable(const CompiledCase& of) {
   return provable_[case_] == Provable::yes;
 }
 
-// What the case had found, as far as that is in its box: what follows from it and from the parameters is then
-// near the solution, too. Where data had to be moved within their play they have to be now.
-void Search::try_last(const CompiledCase& of, std::span<const Interval> box) {
+// What the first case had found, as far as that is in its box: what follows from it and from the parameters
+// is then near the solution, too. Where data had to be moved within their play they have to be now.
+void Search::try_last() {
+  if (waiting_.empty() || !last_[waiting_.owner()].is_known) return;
+  case_ = waiting_.owner();
+  const CompiledCase& of = cases_[case_];
   const Last& last = last_[case_];
-  for (std::size_t v = 0; v < box.size(); ++v) {
+  const std::span<const Interval> box = waiting_.box();
+  for (std::size_t v = 0; v < of.search.core(); ++v) {
     const double x = std::min(std::max(last.search[v], box[v].lo()), box[v].hi());
     part_[v] = Interval::raw(x, x);
   }

@@ -98,14 +98,15 @@ const Finding& Search::run() {
   for (std::size_t i = order_.size(); i-- > 0;) {
     if (left_.contains(order_[i])) open(order_[i]);
   }
-  // Where no case is what it was, there may be no solution any more.
-  const bool is_familiar = !waiting_.empty() && last_[waiting_.owner()].is_known;
-  if (!is_familiar && is_out_of_reason()) return finding_;
+  // What tells at once that there is no solution takes a while to evaluate, and mostly there is one.
+  constexpr std::size_t kPatience = 4;
+  try_last();
+  explore(kPatience);
+  if (!finding_.is_found && is_out_of_reason()) return finding_;
   explore();
   if (!finding_.is_found) {
     finding_.refuted_by = static_cast<std::uint32_t>(
         std::max_element(refutations_.begin(), refutations_.end()) - refutations_.begin());
-    if (is_familiar) is_out_of_reason();
     return finding_;
   }
   const auto place = std::find(order_.begin(), order_.end(), finding_.best_case);
@@ -203,11 +204,9 @@ bool Search::has_looked_enough() const {
   return limits_.is_known_well(Interval::raw(std::min(lower, finding_.best.hi()), finding_.best.hi()));
 }
 
-void Search::explore() {
-  if (waiting_.empty()) return;
-  case_ = waiting_.owner();
-  if (last_[case_].is_known) try_last(cases_[case_], waiting_.box().first(cases_[case_].search.core()));
-  while (!waiting_.empty() && !(finding_.is_found && !has_objective_)) {
+// Until all are looked at that have to be, or so many.
+void Search::explore(std::size_t boxes) {
+  while (boxes_ < boxes && !waiting_.empty() && !(finding_.is_found && !has_objective_)) {
     if (has_looked_enough()) {
       finding_.is_exhausted = true;
       finding_.lower = std::min(finding_.lower, has_objective_ ? waiting_.lower() : 0.0);

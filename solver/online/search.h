@@ -74,7 +74,7 @@ class Search {
 
  private:
   void open(std::size_t number);
-  void explore();
+  void explore(std::size_t boxes = ~std::size_t{0});
   void look_at(std::span<Interval> box);
   bool is_refuted(std::span<const Test> tests);
   void sift();
@@ -83,7 +83,7 @@ class Search {
   bool is_provable(const CompiledCase& of);
   bool find_domains(const Code& code, std::span<const Interval> declared, bool is_inner,
                     std::span<Interval> domains);
-  void try_last(const CompiledCase& of, std::span<const Interval> box);
+  void try_last();
   bool try_box(const CompiledCase& of, std::span<const Interval> box, bool is_leaf);
   bool try_part(const CompiledCase& of, Proof::By by, std::span<const double> last = {});
   void keep(const CompiledCase& of);
