@@ -33,6 +33,20 @@ std::vector<Ranked> ranked_requirements(Facts& facts, const View& view, Purpose 
   return ranked;
 }
 
+// Which nodes are quotients by one of these factors, or need one.
+std::vector<bool> nodes_of_quotients(const Dag& dag, const std::vector<NodeId>& factors) {
+  std::vector<bool> result(dag.size());
+  if (factors.empty()) return result;
+  for (NodeId id = 0; id < dag.size(); ++id) {  // operands come first
+    const DagNode& of = dag[id];
+    const int arity = operator_entry(of.op).arity;
+    result[id] = of.op == Op::div && std::ranges::count(factors, of.operands[1]) > 0;
+    for (int k = 0; k < arity; ++k)
+      result[id] = result[id] || result[of.operands[static_cast<std::size_t>(k)]];
+  }
+  return result;
+}
+
 }  // namespace
 
 Prefix::Prefix(const std::vector<Input>& parameters) : size_(static_cast<Register>(parameters.size())) {
@@ -104,14 +118,10 @@ Code::Code(Dag& dag, Prefix& prefix, Facts& facts, const View& view, std::size_t
     end_stage(stage);
   }
   find_real_path();
-  const auto is_quotient = [&](NodeId id) {
-    const DagNode& of = dag[id];
-    return of.op == Op::div && std::ranges::count(view.nonzero, of.operands[1]) > 0;
-  };
+  const std::vector<bool> of_quotient = nodes_of_quotients(dag, view.nonzero);
   for (const Requirement& own : view.conditions) {
     conditions.push_back(test(own, prefix.place(dag, own.root, givens_)));
-    if (!view.nonzero.empty())
-      conditions.back().is_of_quotient = std::ranges::any_of(needed_nodes(dag, {own.root}), is_quotient);
+    conditions.back().is_of_quotient = of_quotient[own.root];
   }
   for (const NodeId factor : view.nonzero) nonzero.push_back(prefix.place(dag, factor, givens_));
   for (const Bound& bound : view.bounds) {
