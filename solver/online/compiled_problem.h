@@ -23,8 +23,8 @@ std::string_view to_string(OnlineStatus status);
 
 struct OnlineOptions {
   double precision = 1e-9;  ///< the search goes on for as long as the objective may be better by more
-  std::size_t most_boxes =
-      5000;  ///< that one solve looks at, at 5 to 30 microseconds each; a fifth once solved
+  /// That one solve looks at, at 5 to 30 microseconds each; a fifth of them once the status would be solved.
+  std::size_t most_boxes = 5000;
   std::size_t most_cases = 256;  ///< that the problem may have
   std::vector<Expr> outputs;     ///< expressions whose values at the solution are wanted, too
 };
