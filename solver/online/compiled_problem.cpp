@@ -51,7 +51,11 @@ struct CompiledProblem::Impl {
   template <class Number>
   bool set(Parameter parameter, std::span<const Number> given);
   void solve();
-  void read_solution(const online::Finding& finding);
+  void read_solution();
+  void read_tube(online::WantedTube& own);
+  [[nodiscard]] const online::CompiledCase& case_of_solution() const {
+    return compiled.cases[search.finding().best_case];
+  }
 };
 
 namespace {
@@ -94,7 +98,7 @@ void CompiledProblem::Impl::solve() {
   is_found = finding.is_found;
   if (is_found) {
     objective = Interval::raw(finding.lower, finding.best.hi());
-    read_solution(finding);
+    read_solution();
   }
   const bool is_refuted = !is_found && !finding.is_exhausted && finding.lower == kInfinity;
   const bool is_bracketed = !compiled.has_objective || search.limits().is_known_well(objective);
@@ -105,20 +109,26 @@ void CompiledProblem::Impl::solve() {
   if (is_refuted && !compiled.names.empty()) reason = compiled.names[finding.refuted_by];
 }
 
-void CompiledProblem::Impl::read_solution(const online::Finding& finding) {
-  const online::CompiledCase& of = compiled.cases[finding.best_case];
-  machine.recall(of.proof);
-  machine.evaluate_further(of.proof);
-  const std::vector<online::Source>& sources = compiled.sources[finding.best_case];
+void CompiledProblem::Impl::read_solution() {
+  const online::Code& proof = case_of_solution().proof;
+  machine.recall(proof);
+  machine.evaluate_further(proof);
+  const std::vector<online::Source>& sources = compiled.sources[search.finding().best_case];
   for (std::size_t v = 0; v < values.size(); ++v) {
     const online::Source& source = sources[v];
     values[v] = source.is_register ? machine.value(source.reg) : source.value;
   }
   const std::size_t first = compiled.has_objective ? 1 : 0;
-  const std::span<const online::Register> wanted = of.proof.wanted;
-  for (std::size_t i = 0; i < outputs.size(); ++i) outputs[i] = machine.value(wanted[first + i]);
-  for (online::WantedTube& own : compiled.tubes)
-    own.tube.assign([&, from = wanted.subspan(own.first)](std::size_t i) { return machine.value(from[i]); });
+  for (std::size_t i = 0; i < outputs.size(); ++i) outputs[i] = machine.value(proof.wanted[first + i]);
+  for (online::WantedTube& own : compiled.tubes) {
+    if (own.is_asked_for) read_tube(own);
+  }
+}
+
+// At the solution that the machine is evaluated at.
+void CompiledProblem::Impl::read_tube(online::WantedTube& own) {
+  const auto from = std::span(case_of_solution().proof.wanted).subspan(own.first);
+  own.tube.assign([&](std::size_t i) { return machine.value(from[i]); });
 }
 
 CompiledProblem::CompiledProblem(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
@@ -137,9 +147,12 @@ CompiledProblem::Variable CompiledProblem::variable(std::string_view name) const
 }
 
 CompiledProblem::Tube CompiledProblem::tube(std::string_view name) const {
-  const std::vector<online::WantedTube>& all = impl_->compiled.tubes;
+  std::vector<online::WantedTube>& all = impl_->compiled.tubes;
   const auto found = std::find_if(all.begin(), all.end(), [&](const auto& one) { return one.name == name; });
   if (found == all.end()) throw std::out_of_range(fmt::format("compile: there is no tube {}", name));
+  // A motion of many joints has thousands of coefficients: they are read of the tubes that are asked for.
+  if (!found->is_asked_for && impl_->is_found) impl_->read_tube(*found);
+  found->is_asked_for = true;
   return {static_cast<std::size_t>(found - all.begin())};
 }
 

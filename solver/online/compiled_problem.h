@@ -49,7 +49,8 @@ class CompiledProblem {
     std::size_t index = 0;
   };
 
-  // Before the loop. std::out_of_range where nothing has that name.
+  // Before the loop. std::out_of_range where nothing has that name. A solve reads the tubes that were asked
+  // for by then.
   [[nodiscard]] Parameter parameter(std::string_view name) const;
   [[nodiscard]] Variable variable(std::string_view name) const;
   [[nodiscard]] Tube tube(std::string_view name) const;

@@ -24,6 +24,7 @@ struct WantedTube {
   std::string name;
   PolynomialTube tube;
   std::size_t first;
+  bool is_asked_for = false;
 };
 
 /// What is asked of a problem: all that compilation needs to know of it.

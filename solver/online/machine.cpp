@@ -22,7 +22,7 @@ Machine::Machine(const Prefix& prefix, std::size_t own_registers, std::size_t co
       flags_(values_.size(), kDefined | kLipschitz),
       needed_(values_.size()),
       reals_(values_.size()),
-      real_slopes_((own_registers + 1) * padded(core)),
+      real_slopes_((own_registers + 1) * lanes(core)),
       sides_(surfaces, Side::both) {
   for (const auto& [reg, value] : prefix.constants()) values_[reg] = value;
 }

@@ -97,10 +97,16 @@ class Machine {
   void differentiate_real(const Code& code, std::uint64_t active, Code::Stage last);
   [[nodiscard]] double real(Register reg) const { return reals_[reg]; }
   /// After differentiate_real(), with regard to the k-th of the unknowns of its mask.
-  [[nodiscard]] double real_slope(Register reg, std::size_t k) const { return real_slopes_of(reg)[k]; }
+  [[nodiscard]] double real_slope(Register reg, std::size_t k) const {
+    return real_slopes_of(reg)[k / kLanes][k % kLanes];
+  }
 
  private:
   static constexpr std::uint8_t kDefined = 1, kLipschitz = 2;
+  // Rows of derivatives in floating point have their columns by twos, what is beyond the last is 0.
+  using Lanes [[gnu::vector_size(16)]] = double;
+  static constexpr std::size_t kLanes = 2;
+  static constexpr std::size_t lanes(std::size_t columns) { return (columns + kLanes - 1) / kLanes; }
   /// What a solution needs of a register: that it has a value, or one in less than what was computed.
   enum class Need : std::uint8_t { none, value, narrower };
 
@@ -108,8 +114,8 @@ class Machine {
   [[nodiscard]] const Interval* slopes_of(Register reg) const {
     return &slopes_[reg < first_ ? 0 : (reg - first_ + 1) * columns_];
   }
-  [[nodiscard]] const double* real_slopes_of(Register reg) const {
-    return &real_slopes_[reg < first_ ? 0 : (reg - first_ + 1) * real_columns_];
+  [[nodiscard]] const Lanes* real_slopes_of(Register reg) const {
+    return &real_slopes_[reg < first_ ? 0 : (reg - first_ + 1) * real_lanes_];
   }
   void load(const Code& code, std::span<const Interval> box);
   void run(std::span<const Instruction> code);
@@ -126,18 +132,13 @@ class Machine {
   template <ChainRule::Kind kKind>
   void apply_real(const ChainRule& rule);
 
-  // Rows of derivatives in floating point have columns by fours, the last of them 0.
-  static constexpr std::size_t kLanes = 4;
-  static constexpr std::size_t padded(std::size_t columns) {
-    return (columns + kLanes - 1) / kLanes * kLanes;
-  }
-
   Register first_;  // own register
-  std::size_t columns_ = 0, real_columns_ = 0;
+  std::size_t columns_ = 0, real_lanes_ = 0;
   std::vector<Interval> values_, slopes_, kept_;
   std::vector<std::uint8_t> flags_;
   std::vector<Need> needed_;
-  std::vector<double> reals_, real_slopes_;
+  std::vector<double> reals_;
+  std::vector<Lanes> real_slopes_;
   std::vector<Side> sides_;  // by surface
   std::uint32_t refuted_by_ = 0;
 };

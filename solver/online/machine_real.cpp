@@ -57,29 +57,25 @@ void Machine::evaluate_real(const Code& code, std::span<const double> point, Cod
 template <ChainRule::Kind kKind>
 void Machine::apply_real(const ChainRule& rule) {
   using Kind = ChainRule::Kind;
-  const double *a = real_slopes_of(rule.a), *b = real_slopes_of(rule.b), *c = real_slopes_of(rule.c);
+  const Lanes *a = real_slopes_of(rule.a), *b = real_slopes_of(rule.b), *c = real_slopes_of(rule.c);
   const double va = reals_[rule.a], vb = reals_[rule.b];
-  double* const y = &real_slopes_[(rule.y - first_ + 1) * real_columns_];
+  Lanes* const y = &real_slopes_[(rule.y - first_ + 1) * real_lanes_];
   const auto write = [&](auto value_of) {
-    for (std::size_t v = 0; v < real_columns_; v += kLanes) {
-      std::array<double, kLanes> values;
-      for (std::size_t u = 0; u < kLanes; ++u) values[u] = value_of(v + u);
-      std::copy(values.begin(), values.end(), y + v);
-    }
+    for (std::size_t i = 0; i < real_lanes_; ++i) y[i] = value_of(i);
   };
   // What does not vary does not, though the root of 0 is infinitely steep.
-  const auto product = [](double by, double of) { return of == 0.0 ? 0.0 : by * of; };
-  const auto copy = [&](const double* of) { write([&](std::size_t v) { return of[v]; }); };
-  const auto negate = [&](const double* of) { write([&](std::size_t v) { return -of[v]; }); };
+  const auto product = [](double by, const Lanes& of) { return of == 0.0 ? Lanes{} : by * of; };
+  const auto copy = [&](const Lanes* of) { write([&](std::size_t i) { return of[i]; }); };
+  const auto negate = [&](const Lanes* of) { write([&](std::size_t i) { return -of[i]; }); };
   switch (kKind) {
     case Kind::copy:
       return copy(a);
     case Kind::negate:
       return negate(a);
     case Kind::add:
-      return write([&](std::size_t v) { return a[v] + b[v]; });
+      return write([&](std::size_t i) { return a[i] + b[i]; });
     case Kind::sub:
-      return write([&](std::size_t v) { return a[v] - b[v]; });
+      return write([&](std::size_t i) { return a[i] - b[i]; });
     case Kind::min:
       return copy(va <= vb ? a : b);
     case Kind::max:
@@ -89,25 +85,25 @@ void Machine::apply_real(const ChainRule& rule) {
     case Kind::abs:
       return va >= 0.0 ? copy(a) : negate(a);
     case Kind::constant:
-      return write([](std::size_t) { return 0.0; });
+      return write([](std::size_t) { return Lanes{}; });
     case Kind::root:
     case Kind::scale:
-      return write([&, by = reals_[rule.sa]](std::size_t v) { return product(by, a[v]); });
+      return write([&, by = reals_[rule.sa]](std::size_t i) { return product(by, a[i]); });
     case Kind::scale_both:
-      return write([&, by_a = reals_[rule.sa], by_b = reals_[rule.sb]](std::size_t v) {
-        return product(by_a, a[v]) + product(by_b, b[v]);
+      return write([&, by_a = reals_[rule.sa], by_b = reals_[rule.sb]](std::size_t i) {
+        return product(by_a, a[i]) + product(by_b, b[i]);
       });
   }
 }
 
 void Machine::differentiate_real(const Code& code, std::uint64_t active, Code::Stage last) {
   run_real(std::span(code.slopes).first(code.ends[last].slopes));
-  real_columns_ = padded(static_cast<std::size_t>(__builtin_popcountll(active)));
-  std::fill_n(real_slopes_.begin(), (code.core() + 1) * real_columns_, 0.0);
+  real_lanes_ = lanes(static_cast<std::size_t>(__builtin_popcountll(active)));
+  std::fill_n(real_slopes_.begin(), (code.core() + 1) * real_lanes_, Lanes{});
   std::size_t k = 0;
   for (std::uint64_t left = active; left != 0; left &= left - 1, ++k) {
     const auto v = static_cast<std::size_t>(__builtin_ctzll(left));
-    real_slopes_[(v + 1) * real_columns_ + k] = 1.0;
+    real_slopes_[(v + 1) * real_lanes_ + k / kLanes][k % kLanes] = 1.0;
   }
   for_each_rule(std::span(code.chain).first(code.ends[last].chain),
                 [&](auto kind, const ChainRule& rule) { apply_real<kind()>(rule); });

@@ -67,6 +67,8 @@ class Search {
   /// What was found, if anything: the machine keeps it, the registers of the proof of that case.
   /// PRECONDITION: the parameters are in the machine, and the thread rounds upward.
   const Finding& run();
+  /// Of the last run.
+  [[nodiscard]] const Finding& finding() const { return finding_; }
   [[nodiscard]] const Limits& limits() const { return limits_; }
   [[nodiscard]] std::size_t boxes() const { return boxes_; }
   /// Forgets where the last solutions were.

@@ -207,7 +207,9 @@ TEST(StraightLineModels, ALowerBoundOfEveryMotionIsTold) {
         const Interval bound = own.value(own.variable("T_lower"))[0];
         EXPECT_LE(bound.lo(), other.objective().hi()) << way << ' ' << start << ' ' << acceleration;
         EXPECT_LE(bound.lo(), own.objective().hi());
-        if (start == 0.0 && acceleration == 0.0) EXPECT_GE(bound.lo(), 0.999 * other.objective().hi());
+        if (start == 0.0 && acceleration == 0.0) {
+          EXPECT_GE(bound.lo(), 0.999 * other.objective().hi());
+        }
       }
     }
   }
