@@ -67,6 +67,7 @@ void Problem::constrain_at_least(std::string name, std::size_t least,
                                  const std::vector<std::function<void()>>& alternatives) {
   require(least >= 1 && least <= alternatives.size(), "Problem: at least {} of {} alternatives", least,
           alternatives.size());
+  require(impl_->phases == nullptr, "Problem: {} is an alternative, on a time line with phases", name);
   std::vector<ContractorGraph> graphs;
   for (const auto& stated : alternatives) graphs.push_back(impl_->alternative_of(stated));
   impl_->state(make_alternatives_contractor(std::move(name), least, std::move(graphs)));

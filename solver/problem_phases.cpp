@@ -67,8 +67,6 @@ TubeVariable Problem::Impl::add_phase_tube(const std::string& tube, std::size_t 
 
 void Problem::Impl::state_on_phases(PhaseStatement statement) {
   require(!is_expanded, "Problem: {} is stated after the phases were defined", statement.name);
-  require(alternative == nullptr, "Problem: {} is an alternative, on a time line with phases",
-          statement.name);
   statement.span = span;
   statements.push_back(std::move(statement));
 }
