@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
@@ -19,6 +20,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace {
@@ -125,6 +127,7 @@ class Synchronised {
       joints_[k].problem.set(joints_[k].p1, target[k]);
     }
     duration_ = 0.0;
+    reason_ = "no common time";
     constexpr int kMostRounds = 10;
     constexpr double kTogether = 1e-9;  // s
     for (int round = 0; round < kMostRounds; ++round) {
@@ -132,7 +135,10 @@ class Synchronised {
       for (Joint& joint : joints_) {
         joint.problem.set(joint.least, least);
         joint.problem.solve();
-        if (!joint.problem.has_solution()) return false;
+        if (!joint.problem.has_solution()) {
+          reason_ = joint.problem.reason();
+          return false;
+        }
         duration_ = std::max(duration_, joint.problem.objective().hi());
       }
       if (duration_ <= least + kTogether) return true;
@@ -140,6 +146,8 @@ class Synchronised {
     return false;
   }
   [[nodiscard]] double duration() const noexcept { return duration_; }
+  // Why there was no plan.
+  [[nodiscard]] std::string_view reason() const noexcept { return reason_; }
   [[nodiscard]] State after(double t) const noexcept {
     State state;
     for (std::size_t k = 0; k < kJoints; ++k) {
@@ -163,7 +171,10 @@ class Synchronised {
   };
   std::vector<Joint> joints_;
   double duration_ = 0.0;
+  std::string_view reason_;
 };
+
+enum class Outcome { arrived, no_plan, out_of_cycles };
 
 // The arm, which does exactly what is planned, and the clock of its plans.
 class Arm {
@@ -177,18 +188,18 @@ class Arm {
     straight_.limit(limits);
     synchronised_.limit(limits);
   }
-  // To where `target(cycle)` is, and as far as it is on a line: a plan a cycle. Whether the arm is there.
+  // To where `target(cycle)` is, and as far as it is on a line: a plan a cycle.
   template <class Target>
-  bool go_straight(std::size_t most_cycles, const Target& target) {
+  Outcome go_straight(std::size_t most_cycles, const Target& target) {
     for (std::size_t cycle = 0; cycle < most_cycles; ++cycle) {
       const Joints wanted = target(cycle);
-      if (!timed([&] { return straight_.plan(state_, wanted); })) return false;
+      if (!timed([&] { return straight_.plan(state_, wanted); })) return Outcome::no_plan;
       open_brackets_ += straight_.status() == hcsp::OnlineStatus::solved ? 0U : 1U;
-      if (straight_.duration() <= kCycle) return true;
+      if (straight_.duration() <= kCycle) return Outcome::arrived;
       state_ = straight_.after(kCycle);
       now_ += kCycle;
     }
-    return false;
+    return Outcome::out_of_cycles;
   }
   // The fallback: one plan, and the arm follows it.
   bool go_synchronised(const Joints& target) {
@@ -199,6 +210,7 @@ class Arm {
   }
   [[nodiscard]] double now() const noexcept { return now_; }
   [[nodiscard]] const Straight& straight() const noexcept { return straight_; }
+  [[nodiscard]] const Synchronised& synchronised() const noexcept { return synchronised_; }
   [[nodiscard]] double distance_to(const Joints& target) const noexcept {
     double distance = 0.0;
     for (std::size_t k = 0; k < kJoints; ++k)
@@ -234,6 +246,7 @@ Joints along(const Joints& direction, double way) {
 }
 
 void print_histogram(std::vector<double> latencies) {
+  if (latencies.empty()) return;
   std::sort(latencies.begin(), latencies.end());
   const auto quantile = [&](double q) {
     return latencies[static_cast<std::size_t>(q * static_cast<double>(latencies.size() - 1))];
@@ -261,6 +274,14 @@ bool is_there(const Arm& arm, const Joints& target) {
   return arm.distance_to(target) < kNear;
 }
 
+void tell_end(const Arm& arm, Outcome outcome) {
+  if (outcome == Outcome::out_of_cycles) std::printf("%.3f s: out of cycles\n", arm.now());
+  if (outcome == Outcome::no_plan)
+    std::printf("%.3f s: no straight motion, %s: %s\n", arm.now(),
+                std::string(to_string(arm.straight().status())).c_str(),
+                std::string(arm.straight().reason()).c_str());
+}
+
 bool go_out(Arm& arm, const Joints& line, std::size_t most_cycles) {
   double way = 1.0;
   arm.limit({1.0, 4.0, 40.0});
@@ -275,45 +296,63 @@ bool go_out(Arm& arm, const Joints& line, std::size_t most_cycles) {
     }
     return along(line, way);
   };
-  return arm.go_straight(most_cycles, target) && is_there(arm, along(line, way));
+  const Outcome outcome = arm.go_straight(most_cycles, target);
+  tell_end(arm, outcome);
+  return outcome == Outcome::arrived && is_there(arm, along(line, way));
 }
 
 bool come_back(Arm& arm, std::size_t most_cycles) {
   Joints home{};
   const auto target = [&](std::size_t cycle) {
-    if (cycle == 600) home[3] = 0.3;
+    if (cycle == 600) {
+      std::printf("%.3f s: the target leaves the line\n", arm.now());
+      home[3] = 0.3;
+    }
     return home;
   };
-  if (arm.go_straight(most_cycles, target)) return false;  // the target should have left the line
-  std::printf("%.3f s: the target leaves the line: %s, by %s; the joints go on time-synchronised\n",
-              arm.now(), std::string(to_string(arm.straight().status())).c_str(),
-              std::string(arm.straight().reason()).c_str());
-  return arm.go_synchronised(home) && is_there(arm, home);
+  const Outcome outcome = arm.go_straight(most_cycles, target);
+  tell_end(arm, outcome);
+  if (outcome != Outcome::no_plan) return false;
+  if (!arm.go_synchronised(home)) {
+    std::printf("%.3f s: no time-synchronised motion either: %s\n", arm.now(),
+                std::string(arm.synchronised().reason()).c_str());
+    return false;
+  }
+  std::printf("%.3f s: the joints went on time-synchronised\n", arm.now());
+  return is_there(arm, home);
 }
 
 int run(const std::filesystem::path& model, std::size_t most_cycles) {
   Arm arm(model.string(), (model.parent_path() / "one_joint.hcsp").string());
   const Joints line{0.8, -0.6, 0.5, 0.0, 1.0, -0.3, 0.2};
   const bool is_done = go_out(arm, line, most_cycles) && come_back(arm, most_cycles);
-  if (!is_done)
-    std::printf("%.3f s: %s (%s)\n", arm.now(), std::string(to_string(arm.straight().status())).c_str(),
-                std::string(arm.straight().reason()).c_str());
   print_histogram(arm.latencies());
   std::printf("%zu of the straight motions not proven to be the fastest\n", arm.open_brackets());
   return is_done ? 0 : 1;
 }
 
+// None where the arguments are not a model and, perhaps, a number of cycles.
+std::optional<std::size_t> most_cycles(std::span<const char* const> arguments) {
+  constexpr std::size_t kDefault = 10000;
+  if (arguments.size() == 2) return kDefault;
+  if (arguments.size() != 4 || std::string_view(arguments[2]) != "--cycles") return {};
+  const std::string_view digits = arguments[3];
+  std::size_t cycles = 0;
+  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), cycles);
+  if (error != std::errc{} || end != digits.data() + digits.size()) return {};
+  return cycles;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc < 2) {
+  const std::optional<std::size_t> cycles = most_cycles({argv, static_cast<std::size_t>(argc)});
+  if (!cycles) {
     std::fprintf(stderr, "usage: control_loop TYPE3.hcsp [--cycles N]\n");
     return 2;
   }
-  std::size_t cycles = 10000;
-  if (argc == 4 && std::string(argv[2]) == "--cycles") cycles = std::strtoul(argv[3], nullptr, 10);
   try {
-    return run(argv[1], cycles);
+    return run(argv[1], *cycles);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "control_loop: %s\n", error.what());
     return 1;

@@ -45,6 +45,7 @@ struct Shape {
   std::string array;         ///< the array that it is an element of, if any
   std::vector<int> indices;  ///< and where in it
   bool is_drawn = false;     ///< a tube on phases, against known instants for a picture
+  std::size_t degree = 0;    ///< of its polynomials then
 };
 
 struct ResultVariable {

@@ -166,6 +166,7 @@ Type Checker::check_tuple(const Expr& expr) {
   Type type{Type::Kind::real, false, static_cast<std::uint32_t>(expr.operands.size()), Known::now, nullptr};
   std::size_t columns = 0;
   bool bad = false;
+  const Expr* first = nullptr;                      // that is no error
   const Expr *data = nullptr, *computed = nullptr;  // domains of tubes, of two kinds
   for (const Expr* operand : expr.operands) {
     const Type component = check(*operand);
@@ -182,9 +183,12 @@ Type Checker::check_tuple(const Expr& expr) {
       continue;
     }
     // Vectors are the rows of a matrix.
-    if (operand == expr.operands.front()) type.columns = component.dim;
+    if (first == nullptr) {
+      first = operand;
+      type.columns = component.dim;
+    }
     if (component.dim != type.columns) {
-      diagnostics().report(Code::sizes_differ, operand->range, describe(model_.type(*expr.operands.front())),
+      diagnostics().report(Code::sizes_differ, operand->range, describe(model_.type(*first)),
                            describe(component));
       bad = true;
     }

@@ -136,20 +136,33 @@ CompiledProblem::CompiledProblem(CompiledProblem&&) noexcept = default;
 CompiledProblem& CompiledProblem::operator=(CompiledProblem&&) noexcept = default;
 CompiledProblem::~CompiledProblem() = default;
 
+namespace {
+
+const online::Named& named(const std::map<std::string, online::Named>& places, std::string_view name,
+                           std::string_view kind) {
+  const auto found = places.find(std::string(name));
+  if (found == places.end())
+    throw std::out_of_range(fmt::format("compile: `{}` is no {} of the compiled problem", name, kind));
+  return found->second;
+}
+
+}  // namespace
+
 CompiledProblem::Parameter CompiledProblem::parameter(std::string_view name) const {
-  const online::Named& found = impl_->compiled.parameter_places.at(std::string(name));
+  const online::Named& found = named(impl_->compiled.parameter_places, name, "parameter");
   return {found.first, found.size};
 }
 
 CompiledProblem::Variable CompiledProblem::variable(std::string_view name) const {
-  const online::Named& found = impl_->compiled.variable_places.at(std::string(name));
+  const online::Named& found = named(impl_->compiled.variable_places, name, "unknown");
   return {found.first, found.size};
 }
 
 CompiledProblem::Tube CompiledProblem::tube(std::string_view name) const {
   std::vector<online::WantedTube>& all = impl_->compiled.tubes;
   const auto found = std::find_if(all.begin(), all.end(), [&](const auto& one) { return one.name == name; });
-  if (found == all.end()) throw std::out_of_range(fmt::format("compile: there is no tube {}", name));
+  if (found == all.end())
+    throw std::out_of_range(fmt::format("compile: `{}` is no tube of the compiled problem", name));
   // A motion of many joints has thousands of coefficients: they are read of the tubes that are asked for.
   if (!found->is_asked_for && impl_->is_found) impl_->read_tube(*found);
   found->is_asked_for = true;

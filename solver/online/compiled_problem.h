@@ -44,7 +44,7 @@ class CompiledProblem {
   CompiledProblem& operator=(CompiledProblem&&) noexcept;
   ~CompiledProblem();
 
-  /// A tube on a time line of phases.
+  /// A tube on a time line of phases. Valid for the CompiledProblem that gave it.
   struct Tube {
     std::size_t index = 0;
   };
@@ -77,8 +77,8 @@ class CompiledProblem {
   /// Enclosures of one exact solution, the best that was found. Empty without one.
   [[nodiscard]] std::span<const Interval> value(Variable variable) const noexcept;
   [[nodiscard]] Interval value(RealVariable variable) const noexcept;
-  /// The tube of that solution, its polynomials on each phase: ready to execute. Before the first solution
-  /// nothing is known of it.
+  /// The tube of that solution, its polynomials on each phase: ready to execute. Without one it is that of the
+  /// last solution since it was asked for; nothing is known of it before.
   [[nodiscard]] const PolynomialTube& value(Tube tube) const noexcept;
   /// Values there of the expressions that OnlineOptions named.
   [[nodiscard]] std::span<const Interval> outputs() const noexcept;

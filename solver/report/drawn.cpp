@@ -50,6 +50,7 @@ void draw(std::vector<ResultVariable>& variables) {
     const auto* tube = std::get_if<PolynomialTube>(&variable.domain);
     if (tube == nullptr) continue;
     variable.shape.is_drawn = true;
+    variable.shape.degree = tube->degree();
     variable.domain = tube_on(line, *tube);
   }
 }

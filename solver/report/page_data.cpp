@@ -71,6 +71,7 @@ struct Shown {
   std::size_t line = 0;   // of a tube
   bool is_wide = false;   // a tube in doubles
   bool is_drawn = false;  // a tube on phases
+  std::size_t degree = 0;
 };
 
 void put_domain(TextBuffer& out, const Shown&, const Interval& x) {
@@ -140,8 +141,9 @@ void put_variable(TextBuffer& out, const Shown& shown) {
   put(out, R"({"name":)");
   put_json_string(out, shown.name);
   if (const auto* tube = std::get_if<Tube>(shown.last)) {
-    fmt::format_to(fmt::appender(out), R"(,"kind":"tube","dim":{},"line":{},"wide":{},"drawn":{})",
-                   tube->dim(), shown.line, shown.is_wide, shown.is_drawn);
+    fmt::format_to(fmt::appender(out),
+                   R"(,"kind":"tube","dim":{},"line":{},"wide":{},"drawn":{},"degree":{})", tube->dim(),
+                   shown.line, shown.is_wide, shown.is_drawn, shown.degree);
   } else if (const auto* set = std::get_if<SetInterval>(shown.last)) {
     fmt::format_to(fmt::appender(out), R"(,"kind":"set","dim":{},"precision":{})", set->dim(),
                    set->precision());
@@ -344,6 +346,7 @@ std::string page_data(const Result& result, const Presentation& presentation) {
       if (known == lines.end()) lines.push_back(&tube->line());
       how.is_wide = needs_double(*tube);
       how.is_drawn = variable->shape.is_drawn;
+      how.degree = variable->shape.degree;
     }
     shown.push_back(how);
   }

@@ -73,7 +73,11 @@ std::string to_svg(const Result& result, const Presentation& presentation) {
   const bool with_map = result.paving || report::has_map(shown);
   const auto count = static_cast<double>(plots.size());
   const double plots_height = std::clamp(with_map ? kMapEdge : 200 * count, 150 * count, kMostHeight);
-  const double width = (with_map ? kGap + kMapEdge : 0) + (plots.empty() ? 0 : kGap + kPlotWidth) + 30;
+  const std::string said = caption(result);
+  constexpr double kLetter = 6.5;  // wide, about
+  const double width =
+      std::max((with_map ? kGap + kMapEdge : 0) + (plots.empty() ? 0 : kGap + kPlotWidth) + 30,
+               40 + kLetter * static_cast<double>(said.size()));
   const double height = kTop + std::max(with_map ? kMapEdge + 80 : 40, plots.empty() ? 0 : plots_height + 40);
   TextBuffer out;
   fmt::format_to(
@@ -85,7 +89,7 @@ std::string to_svg(const Result& result, const Presentation& presentation) {
   put(out, "<rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>\n");
   fmt::format_to(fmt::appender(out),
                  "<text class=\"title\" x=\"20\" y=\"28\">{}</text>\n<text x=\"20\" y=\"46\">{}</text>\n",
-                 report::xml_escape(result.model), report::xml_escape(caption(result)));
+                 report::xml_escape(result.model), report::xml_escape(said));
   if (result.paving) {
     report::put_paving(out, kGap, kTop, kMapEdge, *result.paving);
   } else if (with_map) {

@@ -84,6 +84,7 @@ std::vector<const ResultVariable*> other_paths(const std::vector<const ResultVar
   for (const ResultVariable* variable : shown) {
     const auto* tube = std::get_if<Tube>(&variable->domain);
     if (variable == leading || tube == nullptr || !variable->shape.is_drawn || tube->dim() < 2) continue;
+    if (variable->shape.degree != leading->shape.degree) continue;  // a derivative is no way
     const bool is_same_way = [&] {
       for (const std::size_t end : {std::size_t{0}, last_known(way, *tube)}) {
         for (const std::size_t c : {0U, 1U}) {

@@ -128,6 +128,16 @@ void put_width_plot(TextBuffer& out, const ResultVariable& variable, Plot plot, 
   put(out, "</g>\n");
 }
 
+// Of a tube, at most; as in plots.js.
+constexpr std::size_t kMostComponents = 12;
+
+// The last one that is drawn tells how many there are.
+std::string title_of(const ResultVariable& variable, std::size_t dim, std::size_t component) {
+  if (dim == 1) return variable.name;
+  const bool is_last = component + 1 == kMostComponents && dim > kMostComponents;
+  return fmt::format("{}[{}]{}", variable.name, component + 1, is_last ? fmt::format(" of {}", dim) : "");
+}
+
 }  // namespace
 
 std::vector<TimePlot> time_plots(const std::vector<const ResultVariable*>& shown) {
@@ -137,7 +147,7 @@ std::vector<TimePlot> time_plots(const std::vector<const ResultVariable*>& shown
     if (tube == nullptr || tube->is_empty()) continue;
     // Of a tube that is drawn so finely the slices' widths are how much it moves meanwhile.
     if (!variable->shape.is_drawn) plots.push_back({variable, tube->dim()});
-    for (std::size_t c = 0; c < std::min<std::size_t>(tube->dim(), 6); ++c) plots.push_back({variable, c});
+    for (std::size_t c = 0; c < std::min(tube->dim(), kMostComponents); ++c) plots.push_back({variable, c});
   }
   return plots;
 }
@@ -163,8 +173,7 @@ void put_time_plot(TextBuffer& out, const TimePlot& what, Plot plot, int id, con
   for (const double value : truth) extent.add(value);
   plot.y_range = extent.range(0.06);
   put_grid(out, plot);
-  put_axes(out, plot, "t",
-           tube.dim() == 1 ? what.variable->name : fmt::format("{}[{}]", what.variable->name, c + 1));
+  put_axes(out, plot, "t", title_of(*what.variable, tube.dim(), c));
   open_clipped(out, plot, id);
   put_band(out, plot, tube, c);
   if (!truth.empty()) put_truth_line(out, plot, presentation.truth->t, truth);

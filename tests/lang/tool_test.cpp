@@ -251,6 +251,10 @@ TEST_F(Tool, PlansStraightLines) {
   const Finished beyond = run(folder + "/type5.hcsp --set 'v1=(1.2,2.4,0.6)'");
   EXPECT_THAT(beyond.text, HasSubstr("refuted by `target`"));
   EXPECT_EQ(run(folder + "/type3.hcsp --set 'vmax=(1,1)'").status, 1) << "of another size";
+  for (const char* limits : {"vmax=(0,1)", "amax=(-1,1)", "jmax=(0,1)"}) {
+    const Finished stuck = run(folder + "/time_synchronised.hcsp --set '" + limits + "'");
+    EXPECT_THAT(stuck.text, HasSubstr("refuted by `limits[1]`")) << limits;
+  }
 }
 
 TEST_F(Tool, ReadsATruth) {

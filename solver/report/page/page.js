@@ -17,9 +17,9 @@ function leadingTube(data, tubes) {
   return tubes.find((tube) => data.truth[tube.name]) || tubes.find(changes) || tubes[0];
 }
 
-// Whether a tube on phases leads from where another starts to where that ends: ways to compare.
+// Whether a tube on phases leads from where another starts to where that ends: ways to compare. A derivative is none.
 function isSameWay(data, tube, other) {
-  if (!tube.drawn || !other.drawn) return false;
+  if (!tube.drawn || !other.drawn || tube.degree !== other.degree) return false;
   const a = lastDomain(data, tube.index), b = lastDomain(data, other.index);
   const isKnown = (item) => [0, 1].every((c) => [a.lo(c, item), a.hi(c, item), b.lo(c, item), b.hi(c, item)].every(Number.isFinite));
   let last = a.items - 1;  // one may be over before the picture is

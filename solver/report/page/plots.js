@@ -34,8 +34,10 @@ class TimePlots {
       range: [0, most > 0 ? 1.06 * most : 1], spread: most / (widest(last) || most) };
     // Of a tube that is drawn from phases the slices' widths are how much it moves meanwhile.
     const plots = tube.drawn ? [] : [width];
-    for (let c = 0; c < Math.min(tube.dim, 6); ++c) {
-      const title = tube.dim === 1 ? tube.name : tube.name + subscript(c + 1);
+    const mostComponents = 12;  // as in svg_plots.cpp; the last one that is drawn tells how many there are
+    for (let c = 0; c < Math.min(tube.dim, mostComponents); ++c) {
+      const more = c + 1 === mostComponents && tube.dim > mostComponents ? " of " + tube.dim : "";
+      const title = tube.dim === 1 ? tube.name : tube.name + subscript(c + 1) + more;
       plots.push({ tube, truth, first, component: c, title, range: this.rangeOf(last, truth, c, first) });
     }
     return plots;

@@ -64,7 +64,8 @@ TEST(Html, FramesArePassesAndTheResult) {
   EXPECT_EQ(data.at("frames").at(2).at("pass"), 2);
   EXPECT_EQ(
       data.at("variables").at(0),
-      json::parse(R"({"name": "x", "kind": "tube", "dim": 2, "line": 0, "wide": false, "drawn": false})"));
+      json::parse(
+          R"({"name": "x", "kind": "tube", "dim": 2, "line": 0, "wide": false, "drawn": false, "degree": 0})"));
   EXPECT_EQ(data.at("frames").at(2).at("domains").at(1), 0);  // M as in the pass before
   EXPECT_EQ(data.at("frames").at(0).at("domains").at(2), json::parse(R"([[0.1, "oo"]])"));
   EXPECT_EQ(decoded<double>(data.at("lines").at(0)), (std::vector<double>{0.0, 0.1, 0.25, 1.0}));
