@@ -77,8 +77,8 @@ class CompiledProblem {
   /// Enclosures of one exact solution, the best that was found. Empty without one.
   [[nodiscard]] std::span<const Interval> value(Variable variable) const noexcept;
   [[nodiscard]] Interval value(RealVariable variable) const noexcept;
-  /// The tube of that solution, its polynomials on each phase: ready to execute. Without one it is that of the
-  /// last solution since it was asked for; nothing is known of it before.
+  /// The tube of that solution, its polynomials on each phase: ready to execute. Without one it is that of
+  /// the last solution since it was asked for; nothing is known of it before.
   [[nodiscard]] const PolynomialTube& value(Tube tube) const noexcept;
   /// Values there of the expressions that OnlineOptions named.
   [[nodiscard]] std::span<const Interval> outputs() const noexcept;
