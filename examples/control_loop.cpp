@@ -84,10 +84,10 @@ class Straight {
     options.parameters = {{"K", std::to_string(kJoints)}, {"p1", "zeros(K)"}};
     return options;
   }
-  // At 5 to 30 microseconds a box: what is not known by then is `undecided`, mostly with a motion.
+  // At 5 to 30 microseconds each; near the end of a move, where phases become 0, some dozens are needed.
   static hcsp::OnlineOptions within_cycle() {
     hcsp::OnlineOptions options;
-    options.most_boxes = 50;
+    options.most_boxes = 100;
     return options;
   }
   void set(hcsp::CompiledProblem::Parameter parameter, double value) noexcept {
