@@ -28,10 +28,11 @@ struct CompiledProblem::Impl {
   online::Machine machine;
   online::Search search;
   std::vector<Interval> parameters;
-  std::vector<std::uint8_t> is_invalid;  // by parameter
-  std::vector<std::uint8_t> is_set;      // by parameter
-  std::vector<Interval> values;          // by variable of the problem
-  std::vector<Interval> outputs;         // of the options
+  std::vector<std::uint8_t> is_invalid;   // by parameter
+  std::vector<std::uint8_t> is_set;       // by parameter
+  std::vector<std::uint8_t> has_changed;  // by parameter: since the last solve
+  std::vector<Interval> values;           // by variable of the problem
+  std::vector<Interval> outputs;          // of the options
   OnlineStatus status = OnlineStatus::undecided;
   Interval objective = Interval::empty();
   std::string_view reason;
@@ -45,6 +46,7 @@ struct CompiledProblem::Impl {
         parameters(compiled.parameter_values),
         is_invalid(parameters.size()),
         is_set(parameters.size()),
+        has_changed(parameters.size(), 1),
         values(compiled.variables),
         outputs(options.outputs.size()) {}
 
@@ -76,7 +78,7 @@ bool CompiledProblem::Impl::set(Parameter parameter, std::span<const Number> giv
   if (!is_good) return false;
   for (std::size_t i = 0; i < given.size(); ++i) {
     parameters[parameter.first + i] = as_interval(given[i]);
-    is_set[parameter.first + i] = 1;
+    is_set[parameter.first + i] = has_changed[parameter.first + i] = 1;
   }
   return true;
 }
@@ -92,7 +94,7 @@ void CompiledProblem::Impl::solve() {
     return;
   }
   const RoundUpward guard;
-  compiled.followers.update(parameters, is_set);
+  compiled.followers.update(parameters, is_set, has_changed);
   machine.load(parameters);
   const online::Finding& finding = search.run();
   is_found = finding.is_found;

@@ -16,8 +16,10 @@ class Followers {
   Followers(const Dag& dag, const std::map<VariableId, NodeId>& followed,
             const std::map<Input, std::size_t>& places);
 
-  /// Gives values to those that are not set. Allocates nothing. PRECONDITION: the thread rounds upward.
-  void update(std::span<Interval> values, std::span<const std::uint8_t> is_set);
+  /// Gives values to those that are not set and have changed, or follow one that has; then none has: before
+  /// the first time all are to have. Allocates nothing. PRECONDITION: the thread rounds upward.
+  void update(std::span<Interval> values, std::span<const std::uint8_t> is_set,
+              std::span<std::uint8_t> has_changed);
 
  private:
   struct Follower {

@@ -6,43 +6,85 @@
 #include <algorithm>
 #include <cstddef>
 #include <map>
+#include <set>
+#include <tuple>
+#include <type_traits>
 #include <vector>
 
 namespace hcsp::online {
 
 /// An order of steps y = kind(a, b, c) in which every one comes after those that compute its operands.
 template <class Step, class KindOf>
-std::vector<std::size_t> schedule(const std::vector<Step>& steps, KindOf kind_of) {
-  std::map<std::uint32_t, std::size_t> producer;
-  for (std::size_t i = 0; i < steps.size(); ++i) producer[steps[i].y] = i;
-  std::vector<std::size_t> waits_for(steps.size()), order;
-  std::vector<std::vector<std::size_t>> users(steps.size());
-  std::map<decltype(kind_of(steps[0])), std::vector<std::size_t>> ready;
-  for (std::size_t i = 0; i < steps.size(); ++i) {
-    for (const std::uint32_t operand : {steps[i].a, steps[i].b, steps[i].c}) {
-      const auto by = producer.find(operand);
-      if (by == producer.end()) continue;
-      users[by->second].push_back(i);
-      ++waits_for[i];
+class Scheduler {
+ public:
+  Scheduler(const std::vector<Step>& steps, KindOf kind_of)
+      : waits_for_(steps.size()), users_(steps.size()), changes_(steps.size()) {
+    std::map<std::uint32_t, std::size_t> producer;
+    for (std::size_t i = 0; i < steps.size(); ++i) {
+      kinds_.push_back(kind_of(steps[i]));
+      ++left_[kinds_[i]];
+      producer[steps[i].y] = i;
     }
-    if (waits_for[i] == 0) ready[kind_of(steps[i])].push_back(i);
+    for (std::size_t i = 0; i < steps.size(); ++i) {
+      for (const std::uint32_t operand : {steps[i].a, steps[i].b, steps[i].c}) {
+        const auto by = producer.find(operand);
+        if (by == producer.end()) continue;
+        users_[by->second].push_back(i);
+        ++waits_for_[i];
+      }
+      if (waits_for_[i] == 0) ready_[kinds_[i]].insert(i);
+    }
+    for (std::size_t i = steps.size(); i-- > 0;) {
+      for (const std::size_t user : users_[i])
+        changes_[i] = std::max(changes_[i], changes_[user] + (kinds_[user] == kinds_[i] ? 0U : 1U));
+    }
   }
-  // All that is ready of one kind, then of the one that has most.
-  while (order.size() < steps.size()) {
-    const auto most = std::max_element(ready.begin(), ready.end(), [](const auto& a, const auto& b) {
-      return a.second.size() < b.second.size();
-    });
-    for (std::vector<std::size_t>& own = most->second; !own.empty();) {
-      const auto next = std::min_element(own.begin(), own.end());
-      const std::size_t i = *next;
-      own.erase(next);
-      order.push_back(i);
-      for (const std::size_t user : users[i]) {
-        if (--waits_for[user] == 0) ready[kind_of(steps[user])].push_back(user);
+
+  std::vector<std::size_t> order() {
+    while (order_.size() < kinds_.size()) take_all_of(next_kind());
+    return std::move(order_);
+  }
+
+ private:
+  using Kind = std::invoke_result_t<KindOf, const Step&>;
+
+  // One of which nothing is left to wait for, else the one that most changes of kind wait for.
+  Kind next_kind() const {
+    const auto priority = [&](const auto& own) {
+      const std::set<std::size_t>& ready = own.second;
+      std::size_t changes = 0;
+      for (const std::size_t i : ready) changes = std::max(changes, changes_[i]);
+      return std::tuple(!ready.empty(), ready.size() == left_.at(own.first), changes, ready.size());
+    };
+    return std::ranges::max_element(ready_, {}, priority)->first;
+  }
+
+  void take_all_of(Kind kind) {
+    for (std::set<std::size_t>& own = ready_[kind]; !own.empty();) {
+      const std::size_t i = *own.begin();
+      own.erase(own.begin());
+      order_.push_back(i);
+      --left_[kind];
+      for (const std::size_t user : users_[i]) {
+        if (--waits_for_[user] == 0) ready_[kinds_[user]].insert(user);
       }
     }
   }
-  return order;
+
+  // By step: its kind, how many operands are still to come, what reads it, and how many changes of kind are
+  // at least behind it.
+  std::vector<Kind> kinds_;
+  std::vector<std::size_t> waits_for_;
+  std::vector<std::vector<std::size_t>> users_;
+  std::vector<std::size_t> changes_;
+  std::map<Kind, std::set<std::size_t>> ready_;
+  std::map<Kind, std::size_t> left_;
+  std::vector<std::size_t> order_;
+};
+
+template <class Step, class KindOf>
+std::vector<std::size_t> schedule(const std::vector<Step>& steps, KindOf kind_of) {
+  return Scheduler(steps, kind_of).order();
 }
 
 /// The steps from the first on in that order.
