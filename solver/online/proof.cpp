@@ -28,6 +28,7 @@ Proof::Proof(Machine& machine, std::size_t most_tests, std::size_t most_core)
       is_active_(most_tests),
       is_solved_(most_tests),
       rows_(most_tests),
+      open_(most_tests),
       least_(most_tests),
       pivoting_(most_tests, most_core),
       solved_rows_(most_core),
@@ -75,7 +76,9 @@ void Proof::keep_within_domains() {
 // How far an unknown can move before it leaves its domain, where that is little.
 double Proof::room(std::size_t v) const {
   const double x = point_[v];
-  return std::max(0.0, std::min({std::max(std::abs(x), 1.0), x - domains_[v].lo(), domains_[v].hi() - x}));
+  const double below = x - domains_[v].lo(), above = domains_[v].hi() - x;
+  const bool is_datum = ((free_ >> v) & 1U) == 0;
+  return std::max(0.0, std::min(std::max(std::abs(x), 1.0), is_datum ? std::min(below, above) : std::max(below, above)));
 }
 
 // Equations, and what an attempt before left undecided, or violated.
@@ -325,19 +328,26 @@ bool Proof::contract_to_solution() {
   return true;
 }
 
-// What is undecided is to be solved for in the next round.
+// What is violated is to be solved for in the next round, or else what is undecided: that may be clear of its
+// limit when what is violated no longer is.
 bool Proof::all_hold() {
   for (std::size_t v = 0; v < size_; ++v) {
     if (!leq(box_[v], domains_[v])) return false;
   }
   machine_.evaluate(*code_, {box_.data(), size_});
-  bool all = true;
+  bool all = true, is_any_violated = false;
+  open_count_ = 0;
   for (std::uint32_t i = 0; i < code_->tests.size(); ++i) {
     const Test& test = code_->tests[i];
     if (is_solved_[i] != 0 && !test.strict) continue;
     if (machine_.holds(test)) continue;
     all = false;
-    if (!test.is_equation && test.wanted.hi() == 0.0 && machine_.is_defined(test.reg)) is_active_[i] = 1;
+    if (test.is_equation || test.wanted.hi() != 0.0 || !machine_.is_defined(test.reg)) continue;
+    open_[open_count_++] = i;
+    is_any_violated = is_any_violated || machine_.value(test.reg).lo() > 0.0;
+  }
+  for (const std::uint32_t i : std::span(open_).first(open_count_)) {
+    if (!is_any_violated || machine_.value(code_->tests[i].reg).lo() > 0.0) is_active_[i] = 1;
   }
   return all;
 }

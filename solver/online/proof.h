@@ -63,8 +63,9 @@ class Proof {
   std::vector<double> rooms_;               // by unknown: that the matrix is scaled by
   std::vector<std::uint8_t> is_active_, is_solved_;  // by test
   std::vector<std::uint32_t> rows_;                  // tests that are to be 0
+  std::vector<std::uint32_t> open_;                  // inequalities that do not hold, or may not
   std::vector<double> least_;                        // by row: how near to 0 it was
-  std::size_t row_count_ = 0;
+  std::size_t row_count_ = 0, open_count_ = 0;
   Pivoting pivoting_;
   std::size_t rank_ = 0;
   std::vector<std::uint32_t> solved_rows_, columns_;  // the first rank_
