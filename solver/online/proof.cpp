@@ -193,7 +193,8 @@ bool Proof::correct() {
     const bool is_square = is_chord ? step.now * step.now < kSquare * kSquare * before
                                     : step.now < kSquare && step.now < kMuchSmaller * before;
     const bool is_stalled = vain >= kMostVain || step.now > kStalled * before;
-    const bool is_vain = vain >= kAstray || (is_stalled && step.now < kNear);
+    const bool is_overdetermined = pivoting_.rank() < row_count_;  // to converge, it has to at once
+    const bool is_vain = vain >= kAstray || (is_stalled && step.now < kNear) || (is_overdetermined && i >= kAstray);
     if (is_square || step.of_late < kSmall || is_vain) break;
     is_chord = step.now < kNear && (!is_chord || step.now < kMuchLess * before);
     before = step.now;
