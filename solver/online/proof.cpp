@@ -29,6 +29,7 @@ Proof::Proof(Machine& machine, std::size_t most_tests, std::size_t most_core)
       is_solved_(most_tests),
       rows_(most_tests),
       open_(most_tests),
+      aims_(most_tests),
       least_(most_tests),
       pivoting_(most_tests, most_core),
       solved_rows_(most_core),
@@ -44,7 +45,7 @@ Proof::Proof(Machine& machine, std::size_t most_tests, std::size_t most_core)
       image_(most_core) {}
 
 bool Proof::find(const Code& code, std::span<const double> near, std::span<const Interval> domains, By by) {
-  constexpr int kMostRounds = 4;
+  constexpr int kMostRounds = 6;
   code_ = &code;
   domains_ = domains;
   size_ = code.core();
@@ -56,14 +57,13 @@ bool Proof::find(const Code& code, std::span<const double> near, std::span<const
   if (by == By::data) free_ = all_ &= ~free_;
   std::copy(near.begin(), near.end(), point_.begin());
   std::fill_n(is_active_.begin(), code.tests.size(), std::uint8_t{0});
+  std::fill_n(aims_.begin(), code.tests.size(), 0.0);
   for (int round = 0; round < kMostRounds; ++round) {
     if (!correct()) return false;
     if (is_exact_ && holds_at_point()) return true;
     if (!solve_exactly()) return false;
-    const std::size_t active_before = row_count_;
     if (all_hold()) return true;
-    collect_rows();
-    if (row_count_ == active_before) return false;
+    if (!activate_open()) return false;
   }
   return false;
 }
@@ -78,7 +78,8 @@ double Proof::room(std::size_t v) const {
   const double x = point_[v];
   const double below = x - domains_[v].lo(), above = domains_[v].hi() - x;
   const bool is_datum = ((free_ >> v) & 1U) == 0;
-  return std::max(0.0, std::min(std::max(std::abs(x), 1.0), is_datum ? std::min(below, above) : std::max(below, above)));
+  return std::max(
+      0.0, std::min(std::max(std::abs(x), 1.0), is_datum ? std::min(below, above) : std::max(below, above)));
 }
 
 // Equations, and what an attempt before left undecided, or violated.
@@ -104,7 +105,7 @@ bool Proof::fill_matrix(std::uint64_t active) {
     const Register reg = code_->tests[rows_[k]].reg;
     for (std::size_t l = 0; l < columns; ++l)
       pivoting_.at(k, l) = machine_.real_slope(reg, l) * rooms_[unknowns_[l]];
-    pivoting_.right(k) = -machine_.real(reg);
+    pivoting_.right(k) = -excess(k);
   }
   active_ = active;
   constexpr double kNoise = 1e-15, kPlay = 1e-11;  // what data move is less than that of the others
@@ -113,9 +114,13 @@ bool Proof::fill_matrix(std::uint64_t active) {
 
 // The matrix of a step before, at the point at hand.
 void Proof::keep_matrix() {
-  for (std::size_t k = 0; k < row_count_; ++k)
-    pivoting_.right(k) = -machine_.real(code_->tests[rows_[k]].reg);
+  for (std::size_t k = 0; k < row_count_; ++k) pivoting_.right(k) = -excess(k);
   pivoting_.solve_again();
+}
+
+// How far row k is above what is aimed at.
+double Proof::excess(std::size_t k) const {
+  return machine_.real(code_->tests[rows_[k]].reg) - aims_[rows_[k]];
 }
 
 // Whether some row is much nearer to 0 than it ever was: otherwise all that moves is rounding.
@@ -123,7 +128,7 @@ bool Proof::is_closer() {
   constexpr double kMuch = 0.5;
   bool is_any = false;
   for (std::size_t k = 0; k < row_count_; ++k) {
-    const double size = std::abs(machine_.real(code_->tests[rows_[k]].reg));
+    const double size = std::abs(excess(k));
     is_any = is_any || size < kMuch * least_[k];
     least_[k] = std::min(least_[k], size);
   }
@@ -184,8 +189,8 @@ bool Proof::correct() {
   for (int i = 0; i < kMostSteps; ++i) {
     keep_within_domains();
     machine_.evaluate_real(*code_, {point_.data(), size_}, stage_);
-    is_exact_ = std::all_of(rows_.begin(), rows_.begin() + static_cast<std::ptrdiff_t>(row_count_),
-                            [&](std::uint32_t row) { return machine_.real(code_->tests[row].reg) == 0.0; });
+    is_exact_ = true;
+    for (std::size_t k = 0; k < row_count_; ++k) is_exact_ = is_exact_ && excess(k) == 0.0;
     vain = is_closer() ? 0 : vain + 1;
     if (!find_step(is_chord)) return false;
     const Step step = take_step();
@@ -194,7 +199,8 @@ bool Proof::correct() {
                                     : step.now < kSquare && step.now < kMuchSmaller * before;
     const bool is_stalled = vain >= kMostVain || step.now > kStalled * before;
     const bool is_overdetermined = pivoting_.rank() < row_count_;  // to converge, it has to at once
-    const bool is_vain = vain >= kAstray || (is_stalled && step.now < kNear) || (is_overdetermined && i >= kAstray);
+    const bool is_vain =
+        vain >= kAstray || (is_stalled && step.now < kNear) || (is_overdetermined && i >= kAstray);
     if (is_square || step.of_late < kSmall || is_vain) break;
     is_chord = step.now < kNear && (!is_chord || step.now < kMuchLess * before);
     before = step.now;
@@ -227,7 +233,10 @@ bool Proof::solve_exactly() {
           machine_.real_slope(code_->tests[solved_rows_[k]].reg, place(active_, columns_[l]));
   }
   machine_.evaluate(*code_, {box_.data(), size_}, stage_);
-  for (std::size_t k = 0; k < rank_; ++k) residual_[k] = machine_.value(code_->tests[solved_rows_[k]].reg);
+  for (std::size_t k = 0; k < rank_; ++k) {
+    const std::uint32_t row = solved_rows_[k];
+    residual_[k] = up::sub(machine_.value(code_->tests[row].reg), Interval::raw(aims_[row], aims_[row]));
+  }
   std::fill_n(radius_.begin(), rank_, 0.0);
   if (!precondition()) return false;
   for (int attempt = 0; attempt < kAttempts; ++attempt) {
@@ -329,28 +338,47 @@ bool Proof::contract_to_solution() {
   return true;
 }
 
-// What is violated is to be solved for in the next round, or else what is undecided: that may be clear of its
-// limit when what is violated no longer is.
+// What is solved for does; what else does not, or may not, is open.
 bool Proof::all_hold() {
+  open_count_ = 0;
   for (std::size_t v = 0; v < size_; ++v) {
     if (!leq(box_[v], domains_[v])) return false;
   }
   machine_.evaluate(*code_, {box_.data(), size_});
-  bool all = true, is_any_violated = false;
-  open_count_ = 0;
   for (std::uint32_t i = 0; i < code_->tests.size(); ++i) {
     const Test& test = code_->tests[i];
-    if (is_solved_[i] != 0 && !test.strict) continue;
-    if (machine_.holds(test)) continue;
-    all = false;
-    if (test.is_equation || test.wanted.hi() != 0.0 || !machine_.is_defined(test.reg)) continue;
-    open_[open_count_++] = i;
-    is_any_violated = is_any_violated || machine_.value(test.reg).lo() > 0.0;
+    if ((is_solved_[i] == 0 || test.strict) && !machine_.holds(test)) open_[open_count_++] = i;
   }
-  for (const std::uint32_t i : std::span(open_).first(open_count_)) {
-    if (!is_any_violated || machine_.value(code_->tests[i].reg).lo() > 0.0) is_active_[i] = 1;
+  return open_count_ == 0;
+}
+
+// What is violated is to be solved for in the next round; or else what only just holds, if it does, is to be clear
+// of its limit. False where there is nothing new to solve for, or what was solved for is violated.
+bool Proof::activate_open() {
+  constexpr double kClear = 8.0;  // widths
+  const auto open = std::span(open_).first(open_count_);
+  const auto value = [&](std::uint32_t i) { return machine_.value(code_->tests[i].reg); };
+  const auto is_violated = [&](std::uint32_t i) { return !machine_.is_possible(code_->tests[i]); };
+  const auto is_limit = [&](std::uint32_t i) {
+    const Test& test = code_->tests[i];
+    return !test.is_equation && test.wanted.hi() == 0.0 && machine_.is_defined(test.reg);
+  };
+  const bool is_any_violated = std::ranges::any_of(open, is_violated);
+  bool is_any_new = false;
+  for (const std::uint32_t i : open) {
+    if (is_any_violated && !is_violated(i)) continue;
+    if (!is_limit(i)) {
+      if (is_any_violated) return false;
+      continue;
+    }
+    const double aim = is_any_violated ? 0.0 : -kClear * (value(i).hi() - value(i).lo());
+    if (is_active_[i] != 0 && is_any_violated) return false;
+    if (is_active_[i] != 0 && aims_[i] <= aim) continue;
+    is_active_[i] = 1;
+    aims_[i] = aim;
+    is_any_new = true;
   }
-  return all;
+  return is_any_new;
 }
 
 }  // namespace hcsp::online

@@ -43,6 +43,8 @@ class Proof {
   bool take_middle();
   bool contract_to_solution();
   bool all_hold();
+  bool activate_open();
+  [[nodiscard]] double excess(std::size_t k) const;
 
   static constexpr int kAttempts = 4;
   static constexpr double kMore = 8.0;  // room in the next attempt
@@ -62,8 +64,9 @@ class Proof {
   std::vector<double> changes_, greatest_;  // by unknown: what a step made of it last; how great it was
   std::vector<double> rooms_;               // by unknown: that the matrix is scaled by
   std::vector<std::uint8_t> is_active_, is_solved_;  // by test
-  std::vector<std::uint32_t> rows_;                  // tests that are to be 0
-  std::vector<std::uint32_t> open_;                  // inequalities that do not hold, or may not
+  std::vector<std::uint32_t> rows_;                  // tests that are to be 0, or a little less
+  std::vector<std::uint32_t> open_;                  // tests that do not hold, or may not
+  std::vector<double> aims_;                         // by test: what it is to be
   std::vector<double> least_;                        // by row: how near to 0 it was
   std::size_t row_count_ = 0, open_count_ = 0;
   Pivoting pivoting_;
