@@ -352,8 +352,8 @@ bool Proof::all_hold() {
   return open_count_ == 0;
 }
 
-// What is violated is to be solved for in the next round; or else what only just holds, if it does, is to be clear
-// of its limit. False where there is nothing new to solve for, or what was solved for is violated.
+// What is violated is to be solved for in the next round; or else what only just holds, if it does, is to be
+// clear of its limit. False where there is nothing new to solve for, or what was solved for is violated.
 bool Proof::activate_open() {
   constexpr double kClear = 8.0;  // widths
   const auto open = std::span(open_).first(open_count_);

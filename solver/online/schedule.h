@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <map>
 #include <set>
 #include <tuple>
@@ -13,7 +14,6 @@
 
 namespace hcsp::online {
 
-/// An order of steps y = kind(a, b, c) in which every one comes after those that compute its operands.
 template <class Step, class KindOf>
 class Scheduler {
  public:
@@ -82,6 +82,8 @@ class Scheduler {
   std::vector<std::size_t> order_;
 };
 
+/// An order of steps y = kind(a, b, c) of which every one comes after those that compute its operands, as it
+/// does already, in runs of one kind that are few.
 template <class Step, class KindOf>
 std::vector<std::size_t> schedule(const std::vector<Step>& steps, KindOf kind_of) {
   return Scheduler(steps, kind_of).order();

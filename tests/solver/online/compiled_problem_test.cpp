@@ -179,6 +179,34 @@ TEST(CompiledProblem, TellsWhatIsInvalid) {
   EXPECT_THROW(static_cast<void>(compiled.parameter("nothing")), std::out_of_range);
 }
 
+TEST(CompiledProblem, FollowsWhatChangesUntilItIsSet) {
+  Problem problem("follows");
+  const Expr a = problem(problem.parameter("a", Interval(1.0)));
+  const Expr b = problem(problem.parameter("b", a + a));
+  const Expr c = problem(problem.parameter("c", b + a));
+  const Expr x = problem(problem.real("x", Interval(-100.0, 100.0)));
+  problem.constrain("sum", x == a + b + c);
+  CompiledProblem compiled = compile(problem, x);
+  const auto expect = [&](double wanted) {
+    ASSERT_EQ(compiled.solve(), OnlineStatus::solved);
+    EXPECT_EQ(compiled.objective(), Interval(wanted));
+  };
+  expect(6.0);
+  compiled.set(compiled.parameter("a"), 2.0);
+  expect(12.0);
+  expect(12.0);
+  compiled.set(compiled.parameter("b"), 1.0);
+  expect(6.0);
+  compiled.set(compiled.parameter("a"), 3.0);
+  expect(8.0);
+  EXPECT_FALSE(compiled.set(compiled.parameter("a"), std::nan("")));
+  EXPECT_EQ(compiled.solve(), OnlineStatus::invalid);
+  compiled.set(compiled.parameter("a"), 4.0);
+  expect(10.0);
+  compiled.set(compiled.parameter("c"), 0.0);
+  expect(5.0);
+}
+
 TEST(CompiledProblem, NamesWhatRefutes) {
   oracle::TwoCircles circles;
   CompiledProblem compiled = circles.compiled();
