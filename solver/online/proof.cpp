@@ -73,13 +73,13 @@ void Proof::keep_within_domains() {
     point_[v] = std::min(std::max(point_[v], domains_[v].lo()), domains_[v].hi());
 }
 
-// How far an unknown can move before it leaves its domain, where that is little.
+// How far an unknown can move before it leaves its domain, where that is little. What is solved for may be at
+// an end, and get off it; data that only help are not to come near one.
 double Proof::room(std::size_t v) const {
-  const double x = point_[v];
-  const double below = x - domains_[v].lo(), above = domains_[v].hi() - x;
-  const bool is_datum = ((free_ >> v) & 1U) == 0;
-  return std::max(
-      0.0, std::min(std::max(std::abs(x), 1.0), is_datum ? std::min(below, above) : std::max(below, above)));
+  const double x = point_[v], below = x - domains_[v].lo(), above = domains_[v].hi() - x;
+  const bool is_solved_for = ((free_ >> v) & 1U) != 0;
+  const double most = is_solved_for ? std::max(below, above) : std::min(below, above);
+  return std::max(0.0, std::min(std::max(std::abs(x), 1.0), most));
 }
 
 // Equations, and what an attempt before left undecided, or violated.
@@ -355,25 +355,19 @@ bool Proof::all_hold() {
 // What is violated is to be solved for in the next round; or else what only just holds, if it does, is to be
 // clear of its limit. False where there is nothing new to solve for, or what was solved for is violated.
 bool Proof::activate_open() {
-  constexpr double kClear = 8.0;  // widths
+  constexpr double kClear = 8.0;  // widths of what is undecided
   const auto open = std::span(open_).first(open_count_);
-  const auto value = [&](std::uint32_t i) { return machine_.value(code_->tests[i].reg); };
   const auto is_violated = [&](std::uint32_t i) { return !machine_.is_possible(code_->tests[i]); };
-  const auto is_limit = [&](std::uint32_t i) {
-    const Test& test = code_->tests[i];
-    return !test.is_equation && test.wanted.hi() == 0.0 && machine_.is_defined(test.reg);
-  };
   const bool is_any_violated = std::ranges::any_of(open, is_violated);
   bool is_any_new = false;
   for (const std::uint32_t i : open) {
     if (is_any_violated && !is_violated(i)) continue;
-    if (!is_limit(i)) {
-      if (is_any_violated) return false;
-      continue;
-    }
-    const double aim = is_any_violated ? 0.0 : -kClear * (value(i).hi() - value(i).lo());
-    if (is_active_[i] != 0 && is_any_violated) return false;
-    if (is_active_[i] != 0 && aims_[i] <= aim) continue;
+    const Test& test = code_->tests[i];
+    const bool is_limit = !test.is_equation && test.wanted.hi() == 0.0 && machine_.is_defined(test.reg);
+    if (is_any_violated && (!is_limit || is_active_[i] != 0)) return false;
+    const Interval& value = machine_.value(test.reg);
+    const double aim = is_any_violated ? 0.0 : -kClear * (value.hi() - value.lo());
+    if (!is_limit || (is_active_[i] != 0 && aims_[i] <= aim)) continue;
     is_active_[i] = 1;
     aims_[i] = aim;
     is_any_new = true;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // That a view's constraints have an exact solution near a point. Equations, and inequalities that are
-// undecided there, are solved for as many unknowns by Newton's method in floating point; that the solution
-// exists is Krawczyk's test (Krawczyk 1969; Neumaier 1990, chapter 5), the other unknowns being fixed, and
-// all other constraints hold on all of the box around it.
+// violated or undecided there, are solved for as many unknowns by Newton's method in floating point; that the
+// solution exists is Krawczyk's test (Krawczyk 1969; Neumaier 1990, chapter 5), the other unknowns being
+// fixed, and all other constraints hold on all of the box around it.
 #pragma once
 
 #include "solver/online/machine.h"
