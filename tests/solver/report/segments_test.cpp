@@ -77,6 +77,39 @@ TEST(Segments, ArePictured) {
   EXPECT_THAT(to_html(motion(), {}), testing::HasSubstr(R"("drawn":true)"));
 }
 
+// One phase of 2 s from (0, 0), accelerating: position and velocity begin and end at the same numbers.
+Result from_rest(std::size_t joints) {
+  Problem p("from rest");
+  const RealVariable end = p.real("T", Interval(0.0, 10.0));
+  const VectorVariable tau = p.vector("tau", Box{Interval(2.0)});
+  p.set_phases(p(end), p(tau));
+  const TubeVariable x = p.tube("x", joints), twin = p.tube("twin", joints), v = p.tube("v", joints);
+  std::vector<Expr> push;
+  for (std::size_t c = 0; c < joints; ++c) push.push_back(p.constant(Interval(1.0 + static_cast<double>(c))));
+  p.constrain_derivative("x'", x, p(v));
+  p.constrain_derivative("twin'", twin, p(v));
+  p.constrain_derivative("v'", v, p(p.hold({push})));
+  for (std::size_t c = 0; c < joints; ++c) {
+    const Expr zero = p.constant(Interval(0.0));
+    p.constrain("start", p.at(x, 0.0)[c] == zero && p.at(twin, 0.0)[c] == zero && p.at(v, 0.0)[c] == zero);
+  }
+  return p.solve_all();
+}
+
+// The map's legend lists the ways that it draws, time's plots every component.
+TEST(Segments, ADerivativeIsNoOtherWay) {
+  const std::string svg = to_svg(from_rest(2), {});
+  EXPECT_THAT(svg, testing::HasSubstr(">twin<"));
+  EXPECT_THAT(svg, testing::Not(testing::HasSubstr(">v<")));
+}
+
+TEST(Segments, TwelveComponentsAreDrawn) {
+  const std::string seven = to_svg(from_rest(7), {}), many = to_svg(from_rest(13), {});
+  EXPECT_THAT(seven, testing::HasSubstr(">x[7]<"));
+  EXPECT_THAT(many, testing::HasSubstr(">x[12] of 13<"));
+  EXPECT_THAT(many, testing::Not(testing::HasSubstr(">x[13]<")));
+}
+
 TEST(Segments, AResultWithoutPhasesHasNone) {
   Problem p("plain");
   p.real("x", Interval(0.0, 1.0));
