@@ -43,7 +43,7 @@ std::uint8_t Machine::flags_of_choice(const Instruction& at, const Interval* val
   return static_cast<std::uint8_t>(flags[at.b] & flags[at.c] & kDefined);
 }
 
-template <Op kOp, class Operator>
+template <Op kOp, class Operator, Machine::Of kOf>
 void Machine::run_one(const Instruction& at, Interval* values, std::uint8_t* all_flags) {
   const Interval &a = values[at.a], &b = values[at.b], &c = values[at.c];
   const Interval y = Operator::forward(a, b, c);
@@ -65,11 +65,13 @@ void Machine::run_one(const Instruction& at, Interval* values, std::uint8_t* all
     if (!Operator::defined(a, b, c)) flags = 0;
     if (!operators::is_continuous<Operator>(a, b)) flags &= kDefined;
   }
+  if constexpr (kOf == Of::givens) flags |= kLipschitz;  // in unknowns, of which it knows none
   values[at.y] = y;
   all_flags[at.y] = flags;
 }
 
 // One dispatch for a run of instructions of one operator.
+template <Machine::Of kOf>
 void Machine::run(std::span<const Instruction> code) {
   Interval* const values = values_.data();
   std::uint8_t* const flags = flags_.data();
@@ -77,12 +79,14 @@ void Machine::run(std::span<const Instruction> code) {
     with_operator(at->op, [&](auto known) {
       const Instruction* next = at;
       do {
-        run_one<decltype(known)::op, typename decltype(known)::type>(*next++, values, flags);
+        run_one<decltype(known)::op, typename decltype(known)::type, kOf>(*next++, values, flags);
       } while (next != end && next->op == decltype(known)::op);
       at = next;
     });
   }
 }
+
+void Machine::evaluate(std::span<const Instruction> givens) { run<Of::givens>(givens); }
 
 void Machine::evaluate(std::span<const Section> givens) {
   const auto may_be = [&](const Guard& guard) {
@@ -90,7 +94,7 @@ void Machine::evaluate(std::span<const Section> givens) {
     return guard.wanted ? !operators::is_false(boolean) : !operators::is_true(boolean);
   };
   for (const Section& section : givens) {
-    if (std::ranges::all_of(section.guards, may_be)) run(section.code);
+    if (std::ranges::all_of(section.guards, may_be)) run<Of::givens>(section.code);
   }
 }
 
@@ -101,8 +105,11 @@ void Machine::load(const Code& code, std::span<const Interval> box) {
 
 void Machine::evaluate(const Code& code, std::span<const Interval> box, Code::Stage last) {
   load(code, box);
-  run(std::span(code.values).first(code.ends[last].values));
+  run<Of::unknowns>(std::span(code.values).first(code.ends[last].values));
 }
+
+void Machine::evaluate_rest(const Code& code) { run<Of::unknowns>(code.rest); }
+void Machine::evaluate_further(const Code& code) { run<Of::unknowns>(code.further); }
 
 void Machine::keep(const Code& code) {
   std::copy_n(values_.begin() + code.first(), code.registers(), kept_.begin());
@@ -117,7 +124,7 @@ bool Machine::evaluate_while_possible(const Code& code, std::span<const Interval
   Code::End done{};
   for (std::size_t stage = Code::cheap; stage <= last; ++stage) {
     const Code::End& end = code.ends[stage];
-    run(values.subspan(done.values, end.values - done.values));
+    run<Of::unknowns>(values.subspan(done.values, end.values - done.values));
     for (std::size_t i = done.tests; i < end.tests; ++i) {
       if (is_possible(code.tests[i])) continue;
       refuted_by_ = code.tests[i].name;
@@ -212,7 +219,7 @@ bool Machine::find_open_surfaces(const Code& code, Code::Stage last, std::span<s
 }
 
 void Machine::differentiate(const Code& code, std::uint64_t active, Code::Stage last) {
-  run(std::span(code.slopes).first(code.ends[last].slopes));
+  run<Of::unknowns>(std::span(code.slopes).first(code.ends[last].slopes));
   columns_ = static_cast<std::size_t>(__builtin_popcountll(active));
   std::fill_n(slopes_.begin(), (code.core() + 1) * columns_, Interval::raw(0.0, 0.0));
   std::size_t k = 0;

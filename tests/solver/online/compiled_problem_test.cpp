@@ -207,6 +207,19 @@ TEST(CompiledProblem, FollowsWhatChangesUntilItIsSet) {
   expect(5.0);
 }
 
+// Whichever alternative parameters took, it is the same for all of an unknown's values.
+TEST(CompiledProblem, SolvesWhereParametersLeaveAnAlternativeOpen) {
+  Posed posed({1.0});
+  const Expr one = posed.number(1.0), a = posed.given[0], x = posed.real("x");
+  posed.problem->constrain("root", x * sqr(x) == if_then_else(a > posed.number(0.0), one + a, one - a));
+  CompiledProblem compiled = compile(*posed.problem, x);
+  const std::array open{Interval(-1e-15, 1e-15)};
+  ASSERT_TRUE(compiled.set(compiled.parameter("p0"), std::span<const Interval>(open)));
+  ASSERT_EQ(compiled.solve(), OnlineStatus::solved);
+  EXPECT_TRUE(compiled.objective().contains(1.0));
+  EXPECT_LT(compiled.objective().width(), 1e-14);
+}
+
 TEST(CompiledProblem, NamesWhatRefutes) {
   oracle::TwoCircles circles;
   CompiledProblem compiled = circles.compiled();
