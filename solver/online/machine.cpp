@@ -43,8 +43,8 @@ std::uint8_t Machine::flags_of_choice(const Instruction& at, const Interval* val
   return static_cast<std::uint8_t>(flags[at.b] & flags[at.c] & kDefined);
 }
 
-template <Op kOp, class Operator, Machine::Of kOf>
-void Machine::run_one(const Instruction& at, Interval* values, std::uint8_t* all_flags) {
+template <Op kOp, class Operator>
+void Machine::run_one(const Instruction& at, Interval* values, std::uint8_t* all_flags, std::uint8_t known) {
   const Interval &a = values[at.a], &b = values[at.b], &c = values[at.c];
   const Interval y = Operator::forward(a, b, c);
   auto flags = static_cast<std::uint8_t>(all_flags[at.a] & all_flags[at.b]);
@@ -65,28 +65,27 @@ void Machine::run_one(const Instruction& at, Interval* values, std::uint8_t* all
     if (!Operator::defined(a, b, c)) flags = 0;
     if (!operators::is_continuous<Operator>(a, b)) flags &= kDefined;
   }
-  if constexpr (kOf == Of::givens) flags |= kLipschitz;  // in unknowns, of which it knows none
   values[at.y] = y;
-  all_flags[at.y] = flags;
+  all_flags[at.y] = static_cast<std::uint8_t>(flags | known);
 }
 
-// One dispatch for a run of instructions of one operator.
-template <Machine::Of kOf>
-void Machine::run(std::span<const Instruction> code) {
+// One dispatch for a run of instructions of one operator. `known`: flags that all have.
+void Machine::run(std::span<const Instruction> code, std::uint8_t known) {
   Interval* const values = values_.data();
   std::uint8_t* const flags = flags_.data();
   for (const Instruction *at = code.data(), *end = at + code.size(); at != end;) {
-    with_operator(at->op, [&](auto known) {
+    with_operator(at->op, [&](auto own) {
       const Instruction* next = at;
       do {
-        run_one<decltype(known)::op, typename decltype(known)::type, kOf>(*next++, values, flags);
-      } while (next != end && next->op == decltype(known)::op);
+        run_one<decltype(own)::op, typename decltype(own)::type>(*next++, values, flags, known);
+      } while (next != end && next->op == decltype(own)::op);
       at = next;
     });
   }
 }
 
-void Machine::evaluate(std::span<const Instruction> givens) { run<Of::givens>(givens); }
+// What depends on no unknown is Lipschitz in them, whichever alternative is taken.
+void Machine::evaluate(std::span<const Instruction> givens) { run(givens, kLipschitz); }
 
 void Machine::evaluate(std::span<const Section> givens) {
   const auto may_be = [&](const Guard& guard) {
@@ -94,7 +93,7 @@ void Machine::evaluate(std::span<const Section> givens) {
     return guard.wanted ? !operators::is_false(boolean) : !operators::is_true(boolean);
   };
   for (const Section& section : givens) {
-    if (std::ranges::all_of(section.guards, may_be)) run<Of::givens>(section.code);
+    if (std::ranges::all_of(section.guards, may_be)) evaluate(std::span<const Instruction>(section.code));
   }
 }
 
@@ -105,11 +104,8 @@ void Machine::load(const Code& code, std::span<const Interval> box) {
 
 void Machine::evaluate(const Code& code, std::span<const Interval> box, Code::Stage last) {
   load(code, box);
-  run<Of::unknowns>(std::span(code.values).first(code.ends[last].values));
+  run(std::span(code.values).first(code.ends[last].values));
 }
-
-void Machine::evaluate_rest(const Code& code) { run<Of::unknowns>(code.rest); }
-void Machine::evaluate_further(const Code& code) { run<Of::unknowns>(code.further); }
 
 void Machine::keep(const Code& code) {
   std::copy_n(values_.begin() + code.first(), code.registers(), kept_.begin());
@@ -124,7 +120,7 @@ bool Machine::evaluate_while_possible(const Code& code, std::span<const Interval
   Code::End done{};
   for (std::size_t stage = Code::cheap; stage <= last; ++stage) {
     const Code::End& end = code.ends[stage];
-    run<Of::unknowns>(values.subspan(done.values, end.values - done.values));
+    run(values.subspan(done.values, end.values - done.values));
     for (std::size_t i = done.tests; i < end.tests; ++i) {
       if (is_possible(code.tests[i])) continue;
       refuted_by_ = code.tests[i].name;
@@ -219,7 +215,7 @@ bool Machine::find_open_surfaces(const Code& code, Code::Stage last, std::span<s
 }
 
 void Machine::differentiate(const Code& code, std::uint64_t active, Code::Stage last) {
-  run<Of::unknowns>(std::span(code.slopes).first(code.ends[last].slopes));
+  run(std::span(code.slopes).first(code.ends[last].slopes));
   columns_ = static_cast<std::size_t>(__builtin_popcountll(active));
   std::fill_n(slopes_.begin(), (code.core() + 1) * columns_, Interval::raw(0.0, 0.0));
   std::size_t k = 0;

@@ -49,8 +49,8 @@ class Machine {
   /// refuted_by() is its name.
   bool evaluate_while_possible(const Code& code, std::span<const Interval> box, Code::Stage last);
   /// After evaluate(): what definitions are; after that, what further wanted expressions are.
-  void evaluate_rest(const Code& code);
-  void evaluate_further(const Code& code);
+  void evaluate_rest(const Code& code) { run(code.rest); }
+  void evaluate_further(const Code& code) { run(code.further); }
   /// After evaluate(): derivatives of what a stage needs, with regard to the unknowns of a mask; those of
   /// undecided kinks are hulls.
   void differentiate(const Code& code, std::uint64_t active, Code::Stage last = Code::all);
@@ -118,11 +118,9 @@ class Machine {
     return &real_slopes_[reg < first_ ? 0 : (reg - first_ + 1) * real_lanes_];
   }
   void load(const Code& code, std::span<const Interval> box);
-  enum class Of : std::uint8_t { givens, unknowns };  // what code is evaluated
-  template <Of kOf>
-  void run(std::span<const Instruction> code);
-  template <Op kOp, class Operator, Of kOf>
-  static void run_one(const Instruction& at, Interval* values, std::uint8_t* all_flags);
+  void run(std::span<const Instruction> code, std::uint8_t known = 0);
+  template <Op kOp, class Operator>
+  static void run_one(const Instruction& at, Interval* values, std::uint8_t* all_flags, std::uint8_t known);
   static std::uint8_t flags_of_choice(const Instruction& at, const Interval* values,
                                       const std::uint8_t* flags);
   template <ChainRule::Kind kKind>
