@@ -43,7 +43,6 @@ TEST(Schedule, PutsOperandsFirstAndLosesNothing) {
       EXPECT_EQ(step.kind, steps[step.y - kInputs].kind);
       is_known[step.y] = true;
     }
-    EXPECT_LE(runs(ordered), std::max<std::size_t>(1, size));
   }
 }
 
